@@ -1,0 +1,5 @@
+#include "strandlab/core/version.hpp"
+
+namespace strandlab {
+const char* version() { return STRANDLAB_VERSION; }
+}  // namespace strandlab

@@ -1,0 +1,34 @@
+// Random forming of section mats: each row a stationary sequence strand, gap, strand, gap...
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "strandlab/mat/mat.hpp"
+
+namespace strandlab::mat {
+
+// Statistics of one kind of strand as seen in the section. Lengths and gaps are normal, truncated to positive values.
+// gap_mm = 0 with gap_sd_mm = 0 and length_mm = 0: one strand fills the row (plywood, LVL).
+struct StrandStatistics {
+  double length_mm = 150, length_sd_mm = 20;
+  double gap_mm = 15, gap_sd_mm = 4.95;
+};
+
+struct LayupRow {
+  std::string kind;  // strand kind, becomes the layer's role
+  StrandStatistics statistics;
+};
+
+struct Layup {
+  double length_mm = 100;
+  double layer_thickness_mm = 0.8;
+  std::vector<LayupRow> rows;  // bottom to top
+};
+
+// Throws InputError when a truncated distribution degenerates (sd > mean) or a size is not positive. The same seed gives
+// the same mat, to the last bit of its file, on every machine: counter-based random stream keyed by (seed, row).
+Mat form(const Layup& layup, std::uint64_t seed);
+
+}  // namespace strandlab::mat

@@ -1,0 +1,42 @@
+// A mat: rows of strands before pressing, and the file it is kept in.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace strandlab::mat {
+
+struct Strand {
+  double x0_mm = 0, x1_mm = 0;
+  std::optional<double> angle_deg;      // else that of the strand kind
+  std::optional<std::string> material;  // else that of the strand kind
+  nlohmann::json extra;                 // unknown keys, kept as read
+};
+
+struct Layer {
+  std::string role;  // name of a strand kind
+  std::vector<Strand> strands;  // by x0, not overlapping
+  nlohmann::json extra;
+};
+
+// Section mat: layers bottom to top, each layer_thickness_mm thick, in the window 0..length_mm.
+struct Mat {
+  double length_mm = 0;
+  double layer_thickness_mm = 0;
+  std::vector<Layer> layers;
+  nlohmann::json extra;
+};
+
+// Reads a mat file. Throws InputError (file, layer, strand, what is wrong) for anything that is not a valid mat;
+// `kinds` are the strand kinds a role may name (empty: any).
+Mat read(const std::filesystem::path& file, const std::vector<std::string>& kinds);
+// The same checks on a mat in memory; `source` opens the message.
+void validate(const Mat& mat, const std::vector<std::string>& kinds, const std::string& source);
+// Text of the mat file: coordinates to 1e-6 mm, the same bytes on every machine. write() never leaves a half-written file.
+std::string to_text(const Mat& mat);
+void write(const Mat& mat, const std::filesystem::path& file);
+
+}  // namespace strandlab::mat

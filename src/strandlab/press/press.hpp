@@ -1,0 +1,76 @@
+// Pressing a mat: platens, schedule, the record of the run and its snapshots.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "strandlab/mpm/engine.hpp"
+#include "strandlab/panel/panel.hpp"
+
+namespace strandlab::press {
+
+struct Schedule {
+  double speed_m_s = 16;             // closing speed of the platens
+  double ramp_time_fraction = 0.02;  // of the pressing time, smooth start from rest
+  bool symmetric = false;            // both platens move; else the top one
+  std::vector<double> compactions{0, 0.1, 0.2, 0.3, 0.4};  // increasing, < 1: the state is kept at each
+  double record_interval_compaction = 0.001;
+};
+
+// One line of press.csv. Stresses are compression positive, energies are totals since the start.
+struct Record {
+  double compaction = 0;
+  double time_ms = 0;
+  double stress_MPa = 0;  // mean of both platens over the last record interval
+  double force_top_N = 0, force_bottom_N = 0;
+  double kinetic_mJ = 0, elastic_mJ = 0, plastic_mJ = 0, friction_mJ = 0, contact_mJ = 0, filter_mJ = 0;
+  double platen_work_mJ = 0;
+  double internal_mJ() const { return elastic_mJ + plastic_mJ; }
+  double balance_error() const;  // (work - all terms)/work, 0 at rest
+};
+
+// Everything needed to go on with bit-identical results.
+template <int Dim>
+struct Checkpoint {
+  Panel<Dim> panel;
+  mpm::EngineState engine;        // step, time step, accumulated energies...
+  std::vector<Record> records;
+  Record pending;                 // sums of the record interval in progress
+  int snapshots_done = 0;
+};
+
+struct Progress {
+  double compaction = 0, target = 0;
+  long long step = 0;
+  double particle_steps_per_s = 0;
+  double eta_s = 0;
+};
+
+// Where press() hands what it makes; the caller decides about files and terminals. All optional.
+template <int Dim>
+struct Sink {
+  std::function<void(const Panel<Dim>&, int index)> snapshot;  // at compactions[index]
+  std::function<void(const Checkpoint<Dim>&)> checkpoint;      // every checkpoint_interval_s of wall time and at each snapshot
+  std::function<void(const Progress&)> progress;               // a few times a second
+  double checkpoint_interval_s = 30;
+};
+
+template <int Dim>
+struct Outcome {
+  std::vector<Record> records;
+  std::vector<std::string> warnings;  // "platen speed too high...", in plain words
+  long long steps = 0;
+  double wall_s = 0;
+  double particle_steps_per_s = 0;
+  mpm::Timing timing;
+};
+
+// Presses a mat (or goes on from `resume`) through the schedule. Throws RunError with the last good state handed to the
+// checkpoint sink when a particle leaves the grid, inverts, turns non-finite or the time step underflows.
+template <int Dim>
+Outcome<Dim> press(const Panel<Dim>& mat, const Schedule& schedule, const mpm::Options& options, const Sink<Dim>& sink,
+                   const std::optional<Checkpoint<Dim>>& resume = std::nullopt);
+
+}  // namespace strandlab::press
