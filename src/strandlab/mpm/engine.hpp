@@ -1,0 +1,147 @@
+// Explicit material point method (GIMP) for stacks of anisotropic elastic-plastic bodies that touch, in 2 and 3 dimensions.
+// The engine knows bodies and rigid platens; it knows nothing of mats and presses.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "strandlab/panel/panel.hpp"
+
+namespace strandlab::mpm {
+
+// Part of a body's surface whose normals do not cancel: top, bottom, one end... A face point rides on a particle p: it is at
+// x_p + F_p offset, with outward area vector cof(F_p) area. Faces are kept apart because the top and the bottom of a
+// compacted strand reach the same node.
+template <int Dim>
+struct Face {
+  std::string name;
+  std::vector<int> particle;
+  std::vector<Vec<Dim>> offset;  // mm, at formation
+  std::vector<Vec<Dim>> area;    // mm (2D, per mm depth) or mm^2, outward, at formation
+  Vec<Dim> traction = Vec<Dim>::Zero();  // MPa, applied to the face (dead load on the area at formation)
+};
+
+// A deformable body: particles plus surface points. Arrays as in Strand<Dim>.
+template <int Dim>
+struct Body {
+  std::string name;
+  wood::StrandMaterial material;
+  std::array<int, Dim> points{};  // lattice of the particles, along fastest; product 0: no lattice, any order
+  Vec<Dim> spacing;               // mm, a particle's domain at formation
+  std::vector<Vec<Dim>> x, v;     // mm, mm/s
+  std::vector<Tensor<Dim>> F;
+  std::vector<Voigt> stress;      // MPa, Kirchhoff, strand axes
+  std::vector<double> plastic;    // alpha
+  std::vector<Face<Dim>> faces;
+};
+
+// The body of a strand: its lattice and its faces (top and bottom, the two ends, in 3D the two edges).
+template <int Dim>
+Body<Dim> body_of(const Strand<Dim>& strand);
+
+enum class Side { kFree, kRoller };
+
+// Background grid: cells of size `cell`, a grid line through `origin` on each axis. Rollers sit on the planes lo and hi (these
+// must be grid planes). A particle outside lo..hi (free sides: more than `margin` outside) stops the run.
+template <int Dim>
+struct Grid {
+  Vec<Dim> cell;    // mm
+  Vec<Dim> origin;  // mm
+  Vec<Dim> lo, hi;  // mm, the window; last axis: where platens may be
+  std::array<std::array<Side, 2>, Dim> sides{};  // [axis][lo, hi]; the last axis is free (platens)
+  bool follow_platens = false;  // height of the cells stays proportional to the platen gap
+};
+
+// Rigid plane normal to the last axis. Moves with `velocity`.
+struct Platen {
+  double position = 0;  // mm
+  double velocity = 0;  // mm/s
+};
+
+struct Options {
+  int threads = 1;
+  double courant = 0.4;
+  double friction = 0.3;         // between bodies, Coulomb
+  double platen_friction = 0.3;  // body on platen
+  bool contact = true;           // false: all bodies share one velocity field (one continuous body)
+  int filter_interval = 0;       // steps between XPIC(2) filterings of the particle velocities; 0: pure FLIP
+  bool profile = false;          // measure Timing per phase
+};
+
+// Running totals, mJ (2D: per mm depth). Each from its own definition.
+struct Energies {
+  double kinetic = 0;  // of the particles, now
+  double elastic = 0;  // stored, now
+  double plastic = 0;  // dissipated: sum V0 tau : d eps_p
+  double friction = 0; // dissipated by slip against friction
+  double contact = 0;  // lost in inelastic meetings (normal impulses)
+  double filter = 0;   // lost to the velocity filter and to lumping when impulses pass from grid to particles
+  double platen_work = 0;  // done by the platens on the bodies
+  double external_work = 0;  // done by tractions and gravity
+};
+
+// All of the engine's state that is not in the bodies; with them it continues to the same bits.
+struct EngineState {
+  long long step = 0;
+  double time_s = 0;
+  double time_step_s = 0;
+  Platen bottom, top;
+  Energies energies;  // totals only; kinetic and elastic follow from the bodies
+};
+
+struct Timing {  // s, summed over threads; 0 unless Options::profile
+  double weights = 0, surface = 0, scatter = 0, grid = 0, contact = 0, gather = 0, material = 0;
+  double fields_per_node = 0;   // mean over nodes with mass
+  double plastic_fraction = 0;  // particle-steps that yielded
+};
+
+template <int Dim>
+class Engine {
+ public:
+  // Throws InputError for a grid that cannot hold the bodies (rollers off the grid lines, bodies outside).
+  Engine(const std::vector<Body<Dim>>& bodies, const Grid<Dim>& grid, const Options& options);
+  ~Engine();
+  Engine(Engine&&) noexcept;
+  Engine& operator=(Engine&&) noexcept;
+
+  void set_platens(const Platen& bottom, const Platen& top);  // positions and velocities for the steps to come
+  void set_platen_velocities(double bottom, double top);      // mm/s
+  void set_gravity(const Vec<Dim>& g);                        // mm/s^2
+  void set_traction(int body, int face, const Vec<Dim>& traction);  // MPa
+  void resume(const EngineState& state);  // state of a run whose bodies were given to the constructor
+
+  // One time step. Throws RunError (step, time, body, position) when a particle leaves the grid, inverts (det F <= 0) or its
+  // stress is not finite, or the time step underflows; the bodies then hold the failed state.
+  void step();
+
+  const EngineState& state() const;
+  Energies energies() const;         // with kinetic and elastic evaluated now
+  double mean_motion_energy() const; // mJ, kinetic energy of each body's mean velocity
+  Vec<Dim> momentum() const;         // t mm/s, of the particles
+  double mass() const;               // t
+  double bottom_force() const, top_force() const;  // N (per mm depth in 2D), pressing positive, of the last step
+  Timing timing() const;
+  long long particle_steps() const;
+  std::size_t particles() const;
+  std::size_t stored_nodes() const, bytes() const;  // of grid fields; of everything
+
+  // Copies the particles' state out, into bodies as given to the constructor (strands of a panel alike).
+  void write(std::vector<Body<Dim>>& bodies) const;
+  void write(Panel<Dim>& panel) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// GIMP shape functions of one axis for a particle at offset d cells from its central node, half-width r cells
+// (|d| <= 1/2, 0 < r <= 1/2): weights of nodes -1, 0, +1 and their derivatives per cell. Bardenhagen & Kober (2004).
+struct Gimp3 {
+  std::array<double, 3> w, g;
+};
+Gimp3 gimp(double d, double r);
+
+}  // namespace strandlab::mpm
