@@ -27,7 +27,9 @@ pkg_check_modules(CAIRO REQUIRED cairo)
 strandlab_import(Cairo::Cairo INCLUDES ${CAIRO_INCLUDE_DIRS} LIBRARIES ${CAIRO_LIBRARIES})
 
 find_package(HDF5 REQUIRED COMPONENTS C)
-strandlab_import(HDF5::HDF5 INCLUDES ${HDF5_INCLUDE_DIRS} LIBRARIES ${HDF5_C_LIBRARIES})
+if(NOT TARGET HDF5::HDF5)  # newer CMake brings it
+  strandlab_import(HDF5::HDF5 INCLUDES ${HDF5_INCLUDE_DIRS} LIBRARIES ${HDF5_C_LIBRARIES})
+endif()
 
 pkg_check_modules(TOMLPP REQUIRED tomlplusplus)
 strandlab_import(tomlplusplus::tomlplusplus INCLUDES "${TOMLPP_INCLUDE_DIRS}" LIBRARIES "${TOMLPP_LIBRARIES}")
