@@ -9,18 +9,11 @@
 
 #include "strandlab/press/press.hpp"
 #include "strandlab/report/morphology.hpp"
+#include "strandlab/report/result_tables.hpp"
 
 namespace strandlab::report {
 
 using Warning = std::optional<std::string>;
-
-// A modulus of moduli.csv.
-struct PanelModulus {
-  double compaction = 0;
-  std::string test;  // "tension", ...
-  double compliance_t_mm_per_MPa = 0;
-  double modulus_MPa = 0;
-};
 
 // Platen stress (mean of both platens) against compaction.
 [[nodiscard]] Warning plot_stress(const std::vector<press::Record>& records, const std::filesystem::path& png);

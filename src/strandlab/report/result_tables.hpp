@@ -1,0 +1,28 @@
+// The tables a run leaves: press.csv and moduli.csv.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "strandlab/io/csv.hpp"
+#include "strandlab/press/press.hpp"
+
+namespace strandlab::report {
+
+// A modulus of moduli.csv.
+struct PanelModulus {
+  double compaction = 0;
+  std::string test;                    // "tension", ...
+  double compliance_t_mm_per_MPa = 0;  // 1/D_t
+  double modulus_MPa = 0;              // from the energy
+  double reaction_modulus_MPa = 0;     // from the reaction
+};
+
+// compaction, time_ms, stress_MPa, force_top_N, force_bottom_N, kinetic_mJ, internal_mJ, plastic_mJ, elastic_mJ,
+// friction_mJ, contact_mJ, filter_mJ, platen_work_mJ; one row per record.
+io::CsvTable press_table(const std::vector<press::Record>& records);
+
+// compaction, test, compliance_t_mm_per_MPa, modulus_MPa, reaction_modulus_MPa; one row per modulus.
+io::CsvTable moduli_table(const std::vector<PanelModulus>& moduli);
+
+}  // namespace strandlab::report
