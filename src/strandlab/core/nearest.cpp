@@ -35,8 +35,9 @@ std::string nearest(std::string_view given, const std::vector<std::string>& know
   int best_distance = 0;
   for (const auto& name : known) {
     const int distance = edit_distance(given, name);
-    const int allowed = std::max(1, static_cast<int>(std::max(given.size(), name.size())) / 3);
-    if (distance <= allowed && (best.empty() || distance < best_distance)) {
+    const int longer = static_cast<int>(std::max(given.size(), name.size()));
+    const bool near = distance <= std::max(1, longer / 3) && distance < longer;
+    if (near && (best.empty() || distance < best_distance)) {
       best = name;
       best_distance = distance;
     }

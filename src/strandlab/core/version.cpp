@@ -1,5 +1,7 @@
 #include "strandlab/core/version.hpp"
 
 namespace strandlab {
-const char* version() { return STRANDLAB_VERSION; }
+const char* version() {
+  return STRANDLAB_VERSION;
+}
 }  // namespace strandlab
