@@ -27,8 +27,10 @@ struct Layup {
   std::vector<LayupRow> rows;  // bottom to top
 };
 
-// Throws InputError when a truncated distribution degenerates (sd > mean) or a size is not positive. The same seed gives
-// the same mat, to the last bit of its file, on every machine: counter-based random stream keyed by (seed, row).
+// The mat of a layup: rows are independent and stationary (row.hpp), cut to the window. Throws InputError (row, what is
+// wrong) when a truncated distribution degenerates (sd > mean), a size is not positive, or a window shorter than a gap
+// leaves a row without strands. The same seed gives the same mat, to the last bit of its file, on every machine:
+// counter-based random stream keyed by (seed, row), places drawn on the 1e-6 mm raster of the file.
 Mat form(const Layup& layup, std::uint64_t seed);
 
 }  // namespace strandlab::mat

@@ -17,7 +17,7 @@ struct Strand {
 };
 
 struct Layer {
-  std::string role;  // name of a strand kind
+  std::string role;             // name of a strand kind
   std::vector<Strand> strands;  // by x0, not overlapping
   nlohmann::json extra;
 };
@@ -30,13 +30,16 @@ struct Mat {
   nlohmann::json extra;
 };
 
-// Reads a mat file. Throws InputError (file, layer, strand, what is wrong) for anything that is not a valid mat;
-// `kinds` are the strand kinds a role may name (empty: any).
+// Reads a mat file: coordinates are rounded to 1e-6 mm (a mat read back from its own file is the same to the last bit)
+// and each layer's strands are sorted by x0. Throws InputError (file, layer, strand, what is wrong) for anything that
+// is not a valid mat; `kinds` are the strand kinds a role may name (empty: any).
 Mat read(const std::filesystem::path& file, const std::vector<std::string>& kinds);
 // The same checks on a mat in memory; `source` opens the message.
 void validate(const Mat& mat, const std::vector<std::string>& kinds, const std::string& source);
-// Text of the mat file: coordinates to 1e-6 mm, the same bytes on every machine. write() never leaves a half-written file.
+// Text of a valid mat's file: coordinates to 1e-6 mm, the same bytes on every machine.
 std::string to_text(const Mat& mat);
+// Writes to_text() whole or not at all. Throws InputError for a mat that read() would not take, and when the file
+// cannot be written.
 void write(const Mat& mat, const std::filesystem::path& file);
 
 }  // namespace strandlab::mat

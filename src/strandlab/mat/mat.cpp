@@ -1,0 +1,270 @@
+#include "strandlab/mat/mat.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+
+#include "strandlab/core/error.hpp"
+#include "strandlab/core/nearest.hpp"
+#include "strandlab/core/write_file.hpp"
+
+namespace strandlab::mat {
+namespace {
+
+using Json = nlohmann::json;
+using Keys = std::vector<std::string>;
+
+const Keys kMatKeys{"length_mm", "layer_thickness_mm", "layers"};
+const Keys kLayerKeys{"role", "strands"};
+const Keys kStrandKeys{"x0", "x1", "angle_deg", "material"};
+
+constexpr double kResolution = 1e6;      // coordinates are whole multiples of 1/kResolution mm
+constexpr double kLongestMat = 1e9;      // mm
+constexpr double kThinnestLayer = 1e-3;  // mm
+
+[[noreturn]] void reject(const std::string& where, const std::string& what) {
+  throw InputError(fmt::format("{}: {}", where, what));
+}
+
+// Nearest double to a coordinate rounded to 1e-6 mm: the number that the file's text reads back as.
+double on_raster(double mm) {
+  return std::round(mm * kResolution) / kResolution;
+}
+
+std::string at_layer(const std::string& source, std::size_t layer) {
+  return fmt::format("{}: layer {}", source, layer + 1);
+}
+std::string at_strand(const std::string& layer, std::size_t strand) {
+  return fmt::format("{}, strand {}", layer, strand + 1);
+}
+
+// A JSON value as a message shows it: short, whatever it is.
+std::string shown(const Json& value) {
+  auto text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text.size() > 40 ? text.substr(0, 37) + "..." : text;
+}
+
+const Json& member(const Json& object, const char* key, const Keys& known, const std::string& where) {
+  const auto found = object.find(key);
+  if (found != object.end()) return *found;
+  std::string hint;
+  for (const auto& item : object.items()) {
+    const bool unknown = std::find(known.begin(), known.end(), item.key()) == known.end();
+    if (unknown && nearest(item.key(), {key}) == key)
+      hint = fmt::format("; is \"{}\" a misspelling of it?", item.key());
+  }
+  reject(where, fmt::format("key \"{}\" is missing{}", key, hint));
+}
+
+double number(const Json& value, const char* key, const char* unit, const std::string& where) {
+  if (!value.is_number()) reject(where, fmt::format("{} = {} must be a number ({})", key, shown(value), unit));
+  return value.get<double>();
+}
+
+std::string text(const Json& value, const char* key, const std::string& where) {
+  if (!value.is_string()) reject(where, fmt::format("{} = {} must be a text in quotes", key, shown(value)));
+  return value.get<std::string>();
+}
+
+const Json& list(const Json& value, const char* key, const std::string& where) {
+  if (!value.is_array()) reject(where, fmt::format("{} = {} must be a list", key, shown(value)));
+  return value;
+}
+
+void require_object(const Json& value, const std::string& where) {
+  if (!value.is_object()) reject(where, fmt::format("found {} in place of an object {{...}}", shown(value)));
+}
+
+Json others(const Json& object, const Keys& known) {
+  Json extra = Json::object();
+  for (const auto& item : object.items()) {
+    if (std::find(known.begin(), known.end(), item.key()) == known.end()) extra[item.key()] = item.value();
+  }
+  return extra;
+}
+
+Strand strand_from(const Json& json, const std::string& where) {
+  require_object(json, where);
+  Strand strand;
+  strand.x0_mm = on_raster(number(member(json, "x0", kStrandKeys, where), "x0", "mm", where));
+  strand.x1_mm = on_raster(number(member(json, "x1", kStrandKeys, where), "x1", "mm", where));
+  if (json.contains("angle_deg")) strand.angle_deg = number(json["angle_deg"], "angle_deg", "degrees", where);
+  if (json.contains("material")) strand.material = text(json["material"], "material", where);
+  strand.extra = others(json, kStrandKeys);
+  return strand;
+}
+
+Layer layer_from(const Json& json, const std::string& where) {
+  require_object(json, where);
+  Layer layer;
+  layer.role = text(member(json, "role", kLayerKeys, where), "role", where);
+  const Json& strands = list(member(json, "strands", kLayerKeys, where), "strands", where);
+  for (std::size_t i = 0; i < strands.size(); ++i) {
+    layer.strands.push_back(strand_from(strands[i], at_strand(where, i)));
+  }
+  layer.extra = others(json, kLayerKeys);
+  return layer;
+}
+
+Mat mat_from(const Json& json, const std::string& source) {
+  require_object(json, source);
+  Mat mat;
+  mat.length_mm = on_raster(number(member(json, "length_mm", kMatKeys, source), "length_mm", "mm", source));
+  mat.layer_thickness_mm =
+      number(member(json, "layer_thickness_mm", kMatKeys, source), "layer_thickness_mm", "mm", source);
+  const Json& layers = list(member(json, "layers", kMatKeys, source), "layers", source);
+  for (std::size_t i = 0; i < layers.size(); ++i) mat.layers.push_back(layer_from(layers[i], at_layer(source, i)));
+  mat.extra = others(json, kMatKeys);
+  return mat;
+}
+
+std::string file_text(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) reject(file.string(), "is a folder, not a mat file");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) reject(file.string(), "cannot be read as a mat file (no such file, or no permission)");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// The parser's message from the point where it says what is wrong; it opens with its own name and the place.
+std::string parser_reason(const std::string& message) {
+  const auto column = message.find("column ");
+  const auto colon = message.find(": ", column == std::string::npos ? 0 : column);
+  if (column != std::string::npos && colon != std::string::npos) return message.substr(colon + 2);
+  const auto bracket = message.find("] ");
+  return bracket == std::string::npos ? message : message.substr(bracket + 2);
+}
+
+Json parse(const std::string& content, const std::string& source) {
+  try {
+    return Json::parse(content);
+  } catch (const Json::parse_error& error) {
+    const auto end = content.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, content.size()));
+    const auto line = 1 + std::count(content.begin(), end, '\n');
+    reject(fmt::format("{}: line {}", source, line), "not valid JSON: " + parser_reason(error.what()));
+  } catch (const Json::exception& error) {
+    reject(source, "not valid JSON: " + parser_reason(error.what()));
+  }
+}
+
+void check_strand(const Mat& mat, const Strand& s, const std::string& where) {
+  if (!std::isfinite(s.x0_mm) || !std::isfinite(s.x1_mm)) {
+    reject(where, fmt::format("x0 = {}, x1 = {} must be finite numbers (mm)", s.x0_mm, s.x1_mm));
+  }
+  if (!(on_raster(s.x1_mm) > on_raster(s.x0_mm))) {
+    reject(where, fmt::format("x1 = {} mm must be larger than x0 = {} mm (by 1e-6 mm or more)", s.x1_mm, s.x0_mm));
+  }
+  if (on_raster(s.x0_mm) < 0 || on_raster(s.x1_mm) > on_raster(mat.length_mm)) {
+    reject(where,
+           fmt::format("x0 = {}, x1 = {} lies outside the mat's window 0 to {} mm", s.x0_mm, s.x1_mm, mat.length_mm));
+  }
+  if (s.angle_deg && !std::isfinite(*s.angle_deg)) {
+    reject(where, fmt::format("angle_deg = {} must be a finite number", *s.angle_deg));
+  }
+  if (s.material && s.material->empty()) reject(where, "material must not be an empty text");
+}
+
+void check_overlap(const std::vector<Strand>& strands, const std::string& where) {
+  std::vector<std::size_t> order(strands.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return strands[a].x0_mm < strands[b].x0_mm; });
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const auto& left = strands[order[i - 1]];
+    const auto& right = strands[order[i]];
+    if (on_raster(right.x0_mm) < on_raster(left.x1_mm)) {
+      reject(at_strand(where, order[i]),
+             fmt::format("x0 = {} mm overlaps strand {}, which ends at x1 = {} mm; strands of a layer must not overlap",
+                         right.x0_mm, order[i - 1] + 1, left.x1_mm));
+    }
+  }
+}
+
+void check_role(const std::string& role, const Keys& kinds, const std::string& where) {
+  if (role.empty()) reject(where, "role must not be empty; it names a strand kind");
+  if (kinds.empty() || std::find(kinds.begin(), kinds.end(), role) != kinds.end()) return;
+  const auto near = nearest(role, kinds);
+  reject(where, fmt::format("unknown role \"{}\"{}; the strand kinds are {}", role,
+                            near.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", near), quoted_list(kinds)));
+}
+
+// A coordinate on the raster with no more digits than it needs, but at least one decimal: 0.0, 91.73.
+std::string coordinate(double mm) {
+  auto digits = fmt::format("{:.6f}", on_raster(mm) + 0.0);
+  while (digits.back() == '0' && digits[digits.size() - 2] != '.') digits.pop_back();
+  return digits;
+}
+
+std::string members(const Json& extra, const char* separator) {
+  std::string out;
+  if (!extra.is_object()) return out;
+  for (const auto& item : extra.items()) {
+    out += fmt::format("{}{}:{}", separator, Json(item.key()).dump(), item.value().dump());
+  }
+  return out;
+}
+
+std::string strand_text(const Strand& s) {
+  auto out = fmt::format("{{\"x0\":{},\"x1\":{}", coordinate(s.x0_mm), coordinate(s.x1_mm));
+  if (s.angle_deg) out += ",\"angle_deg\":" + Json(*s.angle_deg).dump();
+  if (s.material) out += ",\"material\":" + Json(*s.material).dump();
+  return out + members(s.extra, ",") + "}";
+}
+
+std::string layer_text(const Layer& layer) {
+  auto out = fmt::format("  {{\"role\":{}{}, \"strands\":[", Json(layer.role).dump(), members(layer.extra, ", "));
+  for (std::size_t i = 0; i < layer.strands.size(); ++i) out += (i ? ", " : "") + strand_text(layer.strands[i]);
+  return out + "]}";
+}
+
+}  // namespace
+
+void validate(const Mat& mat, const std::vector<std::string>& kinds, const std::string& source) {
+  if (!(mat.length_mm > 0) || !(mat.length_mm <= kLongestMat)) {
+    reject(source, fmt::format("length_mm = {} must be positive and at most {} mm", mat.length_mm, kLongestMat));
+  }
+  if (!(mat.layer_thickness_mm >= kThinnestLayer) || !(mat.layer_thickness_mm <= kLongestMat)) {
+    reject(source, fmt::format("layer_thickness_mm = {} must be between {} and {} mm", mat.layer_thickness_mm,
+                               kThinnestLayer, kLongestMat));
+  }
+  if (mat.layers.empty()) reject(source, "layers is empty; a mat has at least one layer");
+  for (std::size_t i = 0; i < mat.layers.size(); ++i) {
+    const auto& layer = mat.layers[i];
+    const auto where = at_layer(source, i);
+    check_role(layer.role, kinds, where);
+    if (layer.strands.empty()) reject(where, "strands is empty; a layer has at least one strand");
+    for (std::size_t k = 0; k < layer.strands.size(); ++k) check_strand(mat, layer.strands[k], at_strand(where, k));
+    check_overlap(layer.strands, where);
+  }
+}
+
+Mat read(const std::filesystem::path& file, const std::vector<std::string>& kinds) {
+  const auto source = file.string();
+  Mat mat = mat_from(parse(file_text(file), source), source);
+  validate(mat, kinds, source);
+  for (auto& layer : mat.layers) {
+    std::sort(layer.strands.begin(), layer.strands.end(),
+              [](const Strand& a, const Strand& b) { return a.x0_mm < b.x0_mm; });
+  }
+  return mat;
+}
+
+std::string to_text(const Mat& mat) {
+  auto out = fmt::format("{{\"length_mm\":{}, \"layer_thickness_mm\":{}{},\n \"layers\":[\n", coordinate(mat.length_mm),
+                         Json(mat.layer_thickness_mm).dump(), members(mat.extra, ", "));
+  for (std::size_t i = 0; i < mat.layers.size(); ++i) {
+    out += layer_text(mat.layers[i]) + (i + 1 < mat.layers.size() ? ",\n" : "\n");
+  }
+  return out + " ]}\n";
+}
+
+void write(const Mat& mat, const std::filesystem::path& file) {
+  validate(mat, {}, file.string());
+  write_file(file, to_text(mat));
+}
+
+}  // namespace strandlab::mat
