@@ -1,0 +1,41 @@
+// Sparse Cholesky factorisation (CHOLMOD, supernodal, BLAS on one thread).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+namespace strandlab::statics {
+
+// Lower triangle of a symmetric matrix by columns, rows ascending.
+struct LowerMatrix {
+  std::vector<int> column_start;  // size n + 1
+  std::vector<int> row;
+  std::vector<double> value;
+  int size() const { return static_cast<int>(column_start.size()) - 1; }
+};
+
+// y = A x
+std::vector<double> multiply(const LowerMatrix& a, const std::vector<double>& x);
+
+class Cholesky {
+ public:
+  // Orders and analyses the pattern of `matrix`. Pins OpenBLAS to one thread: fronts are too small to share.
+  explicit Cholesky(const LowerMatrix& matrix);
+  ~Cholesky();
+  Cholesky(const Cholesky&) = delete;
+  Cholesky& operator=(const Cholesky&) = delete;
+
+  // Factorises a matrix with the pattern that was analysed. Throws RunError when it is not positive definite or memory runs out.
+  void factorise(const LowerMatrix& matrix);
+
+  // Solves for one or more right-hand sides with the last factor, refined until the residual stops falling.
+  std::vector<std::vector<double>> solve(const LowerMatrix& matrix, const std::vector<std::vector<double>>& rhs);
+
+  double factor_entries() const;  // stored numbers of the factor
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace strandlab::statics

@@ -1,0 +1,47 @@
+// Global stiffness of a meshed panel: the wood is summed once, the glue lines again for each glue stiffness.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "strandlab/statics/cholesky.hpp"
+#include "strandlab/statics/springs.hpp"
+
+namespace strandlab::statics {
+
+class PanelStiffness {
+ public:
+  // Sums the elements and finds the place of every spring. Throws RunError for an inverted element.
+  PanelStiffness(const Mesh& mesh, std::vector<Spring> springs);
+
+  // Stiffness of wood and glue, no supports. The pattern is the same for every glue.
+  LowerMatrix with(const GlueStiffness& glue) const;
+
+  // Strain energy (mJ per mm of depth) of the wood, and of the glue lines, for displacements of all dofs (mm).
+  double wood_energy(const std::vector<double>& displacement) const;
+  double glue_energy(const std::vector<double>& displacement, const GlueStiffness& glue) const;
+
+ private:
+  void make_pattern(const Mesh& mesh);
+  int block_start(int row_node, int column_node, bool second_column) const;
+  void add_block(const std::array<int, 4>& nodes, const ElementStiffness& stiffness, std::vector<double>& values) const;
+
+  std::vector<std::array<int, 4>> elements_;
+  std::vector<ElementStiffness> element_stiffness_;
+  std::vector<Spring> springs_;
+  std::vector<int> node_start_, node_row_;  // lower pattern of nodes: rows of a column, the column itself first
+  LowerMatrix wood_;                        // value: wood alone
+};
+
+// Supports: dofs whose displacement is given. Rows and columns of such dofs are replaced by a diagonal, which keeps the pattern.
+struct Supports {
+  std::vector<char> fixed;  // by dof
+  double diagonal = 1;      // N/mm, of the size of the other diagonal terms
+};
+LowerMatrix constrained(const LowerMatrix& stiffness, const Supports& supports);
+
+// Right-hand side of constrained() for the forces (N) on free dofs and the displacements (mm) of fixed ones.
+std::vector<double> right_hand_side(const LowerMatrix& stiffness, const Supports& supports, const std::vector<double>& force,
+                                    const std::vector<double>& displacement);
+
+}  // namespace strandlab::statics

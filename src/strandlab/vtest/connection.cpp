@@ -1,0 +1,56 @@
+#include "strandlab/vtest/connection.hpp"
+
+#include <numeric>
+
+namespace strandlab::vtest {
+namespace {
+
+// Mean x of the strand's left (i = 0) or right end face.
+double end_position(const Strand<2>& strand, bool right) {
+  const auto lattice = corners(strand);
+  const int n = strand.points[0] + 1;
+  double sum = 0;
+  for (int j = 0; j <= strand.points[1]; ++j) sum += lattice[static_cast<std::size_t>(n) * j + (right ? n - 1 : 0)][0];
+  return sum / (strand.points[1] + 1);
+}
+
+int root(std::vector<int>& parent, int s) {
+  while (parent[s] != s) s = parent[s] = parent[parent[s]];
+  return s;
+}
+
+}  // namespace
+
+Connection connect(const Panel<2>& panel, const std::vector<glue::GluePoint<2>>& points) {
+  const auto n = panel.strands.size();
+  Connection connection;
+  for (const auto& strand : panel.strands) {
+    const double tolerance = 0.25 * strand.spacing[0];  // a strand cut by the window may have crept a little in pressing
+    connection.at_left.push_back(end_position(strand, false) < tolerance);
+    connection.at_right.push_back(end_position(strand, true) > panel.length_mm - tolerance);
+  }
+  std::vector<int> parent(n);
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const auto& point : points) parent[root(parent, point.a.strand)] = root(parent, point.b.strand);
+
+  std::vector<char> left(n, 0), right(n, 0);
+  for (std::size_t s = 0; s < n; ++s) {
+    const int r = root(parent, static_cast<int>(s));
+    if (connection.at_left[s]) left[r] = 1;
+    if (connection.at_right[s]) right[r] = 1;
+  }
+  std::vector<int> number(n, -1);
+  connection.group.assign(n, -1);
+  for (std::size_t s = 0; s < n; ++s) {
+    const int r = root(parent, static_cast<int>(s));
+    if (left[r] && right[r]) {
+      if (number[r] < 0) number[r] = connection.groups++;
+      connection.group[s] = number[r];
+    } else {
+      ++connection.floating;
+    }
+  }
+  return connection;
+}
+
+}  // namespace strandlab::vtest
