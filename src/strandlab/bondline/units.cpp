@@ -1,0 +1,90 @@
+#include "strandlab/bondline/units.hpp"
+
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <utility>
+
+namespace strandlab::bondline {
+namespace {
+
+struct Unit {
+  Dimension dimension;
+  const char* name;  // lower case, no blanks
+  const char* shown;
+  double factor;
+};
+
+constexpr double kInch = 25.4;                        // mm, exact
+constexpr double kPoundForce = 4.4482216152605;       // N, exact
+constexpr double kKilopond = 9.80665;                 // N, exact
+constexpr double kPsi = kPoundForce / kInch / kInch;  // MPa
+
+constexpr std::array kUnits{
+    Unit{Dimension::kLength, "mm", "mm", 1},
+    Unit{Dimension::kLength, "cm", "cm", 10},
+    Unit{Dimension::kLength, "m", "m", 1000},
+    Unit{Dimension::kLength, "um", "um", 1e-3},
+    Unit{Dimension::kLength, "in", "in", kInch},
+    Unit{Dimension::kLength, "inch", "", kInch},
+    Unit{Dimension::kLength, "inches", "", kInch},
+    Unit{Dimension::kLength, "mil", "mil", kInch / 1000},
+    Unit{Dimension::kModulus, "mpa", "MPa", 1},
+    Unit{Dimension::kModulus, "n/mm2", "N/mm2", 1},
+    Unit{Dimension::kModulus, "gpa", "GPa", 1000},
+    Unit{Dimension::kModulus, "kn/mm2", "kN/mm2", 1000},
+    Unit{Dimension::kModulus, "kpa", "kPa", 1e-3},
+    Unit{Dimension::kModulus, "pa", "Pa", 1e-6},
+    Unit{Dimension::kModulus, "psi", "psi", kPsi},
+    Unit{Dimension::kModulus, "ksi", "ksi", 1e3 * kPsi},
+    Unit{Dimension::kModulus, "msi", "Msi", 1e6 * kPsi},
+    Unit{Dimension::kForce, "n", "N", 1},
+    Unit{Dimension::kForce, "kn", "kN", 1000},
+    Unit{Dimension::kForce, "lbf", "lbf", kPoundForce},
+    Unit{Dimension::kForce, "lb", "", kPoundForce},
+    Unit{Dimension::kForce, "kgf", "kgf", kKilopond},
+    Unit{Dimension::kStiffness, "n/mm", "N/mm", 1},
+    Unit{Dimension::kStiffness, "kn/mm", "kN/mm", 1000},
+    Unit{Dimension::kStiffness, "n/m", "N/m", 1e-3},
+    Unit{Dimension::kStiffness, "kn/m", "kN/m", 1},
+    Unit{Dimension::kStiffness, "mn/m", "MN/m", 1000},
+    Unit{Dimension::kStiffness, "n/um", "N/um", 1000},
+    Unit{Dimension::kStiffness, "lbf/in", "lbf/in", kPoundForce / kInch},
+    Unit{Dimension::kStiffness, "lb/in", "", kPoundForce / kInch},
+};
+
+void replace_all(std::string& text, std::string_view what, std::string_view with) {
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
+    text.replace(at, what.size(), with);
+}
+
+std::string normal_form(const std::string& unit) {
+  std::string text;
+  for (char c : unit)
+    if (!std::isspace(static_cast<unsigned char>(c)))
+      text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const auto& [what, with] :
+       {std::pair{"_per_", "/"}, std::pair{"per", "/"}, std::pair{"\xC2\xB2", "2"}, std::pair{"^2", "2"},
+        std::pair{"\xC2\xB5", "u"}, std::pair{"\xCE\xBC", "u"}, std::pair{"\"", "in"}})
+    replace_all(text, what, with);
+  return text;
+}
+
+}  // namespace
+
+std::optional<double> unit_factor(Dimension dimension, const std::string& unit) {
+  const std::string wanted = normal_form(unit);
+  for (const auto& known : kUnits)
+    if (known.dimension == dimension && wanted == known.name) return known.factor;
+  return std::nullopt;
+}
+
+std::string known_units(Dimension dimension) {
+  std::string list;
+  for (const auto& known : kUnits)
+    if (known.dimension == dimension && *known.shown != '\0')
+      list += (list.empty() ? "" : ", ") + std::string(known.shown);
+  return list;
+}
+
+}  // namespace strandlab::bondline
