@@ -33,3 +33,4 @@ endif()
 
 pkg_check_modules(TOMLPP REQUIRED tomlplusplus)
 strandlab_import(tomlplusplus::tomlplusplus INCLUDES "${TOMLPP_INCLUDE_DIRS}" LIBRARIES "${TOMLPP_LIBRARIES}")
+target_compile_options(tomlplusplus::tomlplusplus INTERFACE ${TOMLPP_CFLAGS_OTHER})  # the compiled library, not its headers

@@ -3,7 +3,11 @@ add_library(strandlab_flags INTERFACE)
 target_compile_options(strandlab_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
   -fno-math-errno -ffp-contract=fast
-  $<$<BOOL:${STRANDLAB_NATIVE}>:-march=native>)
+  # g++ 12 warns of its own AVX-512 intrinsics under Eigen (GCC bug 105593)
+  $<$<AND:$<BOOL:${STRANDLAB_NATIVE}>,$<CXX_COMPILER_ID:GNU>>:-Wno-maybe-uninitialized;-Wno-uninitialized>
+  $<$<BOOL:${STRANDLAB_NATIVE}>:-march=native>
+  # g++ 12 warns about its own AVX-512 intrinsics and about packs filled lane by lane.
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 if(STRANDLAB_SANITIZE)
   target_compile_options(strandlab_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(strandlab_flags INTERFACE -fsanitize=address,undefined)
@@ -17,6 +21,7 @@ function(strandlab_room name)
   cmake_parse_arguments(ARG "" "" "LINKS;PRIVATE_LINKS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/strandlab/${name}/*.cpp)
   if(sources)
+    list(FILTER sources EXCLUDE REGEX "/mpm/kernels\\.cpp$")  # see strandlab_kernel_builds
     add_library(strandlab_${name} STATIC ${sources})
     target_include_directories(strandlab_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
     target_link_libraries(strandlab_${name} PUBLIC ${ARG_LINKS} PRIVATE strandlab_flags ${ARG_PRIVATE_LINKS})
@@ -25,4 +30,28 @@ function(strandlab_room name)
     target_include_directories(strandlab_${name} INTERFACE ${PROJECT_SOURCE_DIR}/src)
     target_link_libraries(strandlab_${name} INTERFACE ${ARG_LINKS} ${ARG_PRIVATE_LINKS})
   endif()
+endfunction()
+
+# One object library per instruction set from mpm/kernels.cpp, each in a namespace of its own.
+function(strandlab_kernel_builds)
+  set(source ${PROJECT_SOURCE_DIR}/src/strandlab/mpm/kernels.cpp)
+  set(builds generic)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT STRANDLAB_SANITIZE)
+    list(APPEND builds avx2 avx512)
+    target_compile_definitions(strandlab_mpm PRIVATE STRANDLAB_X86_BUILDS)
+  endif()
+  set(flags_avx2 -march=x86-64-v3)
+  set(flags_avx512 -march=x86-64-v4)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    list(APPEND flags_avx512 -mprefer-vector-width=512)
+  endif()
+  foreach(build ${builds})
+    add_library(strandlab_kernels_${build} OBJECT ${source})
+    target_include_directories(strandlab_kernels_${build} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+    target_compile_definitions(strandlab_kernels_${build} PRIVATE STRANDLAB_ISA=${build})
+    target_link_libraries(strandlab_kernels_${build} PRIVATE strandlab_flags)
+    # -Wno-psabi: packs are never passed between builds, so their calling convention does not matter.
+    target_compile_options(strandlab_kernels_${build} PRIVATE -O3 -Wno-psabi ${flags_${build}})
+    target_sources(strandlab_mpm PRIVATE $<TARGET_OBJECTS:strandlab_kernels_${build}>)
+  endforeach()
 endfunction()

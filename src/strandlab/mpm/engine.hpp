@@ -52,7 +52,7 @@ struct Grid {
   Vec<Dim> origin;  // mm
   Vec<Dim> lo, hi;  // mm, the window; last axis: where platens may be
   std::array<std::array<Side, 2>, Dim> sides{};  // [axis][lo, hi]; the last axis is free (platens)
-  bool follow_platens = false;  // height of the cells stays proportional to the platen gap
+  bool follow_platens = false;  // cell height keeps its ratio to the platen gap; `cell` is for the gap hi - lo
 };
 
 // Rigid plane normal to the last axis. Moves with `velocity`.
@@ -66,7 +66,6 @@ struct Options {
   double courant = 0.4;
   double friction = 0.3;         // between bodies, Coulomb
   double platen_friction = 0.3;  // body on platen
-  bool contact = true;           // false: all bodies share one velocity field (one continuous body)
   int filter_interval = 0;       // steps between XPIC(2) filterings of the particle velocities; 0: pure FLIP
   bool profile = false;          // measure Timing per phase
 };

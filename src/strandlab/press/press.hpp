@@ -39,6 +39,9 @@ struct Checkpoint {
   std::vector<Record> records;
   Record pending;                 // sums of the record interval in progress
   int snapshots_done = 0;
+  // Watch on inertia: platen impulses over the current two transits, and the worst of each measure so far.
+  double balance_time_s = 0, balance_top = 0, balance_bottom = 0;
+  double worst_imbalance = 0, worst_kinetic = 0;
 };
 
 struct Progress {
@@ -65,12 +68,31 @@ struct Outcome {
   double wall_s = 0;
   double particle_steps_per_s = 0;
   mpm::Timing timing;
+  std::size_t particles = 0;
+  std::size_t bytes = 0;  // held by the engine
 };
+
+// Cells of the background grid. Particles: two per cell and axis (make_panel with spacing_along = cell/2).
+struct Resolution {
+  int cells_through_strand = 3;
+  double cell_aspect = 1;       // length of a cell along the panel over its height
+  bool follow_platens = true;   // the cells' height stays proportional to the platen gap
+};
+
+template <int Dim>
+struct Setup {
+  mpm::Grid<Dim> grid;
+  mpm::Options engine;
+};
+
+// The grid of a mat: platens at its faces, sides as given, whole cells between the sides.
+template <int Dim>
+Setup<Dim> setup(const Panel<Dim>& mat, const Resolution& resolution, mpm::Side sides, const mpm::Options& engine);
 
 // Presses a mat (or goes on from `resume`) through the schedule. Throws RunError with the last good state handed to the
 // checkpoint sink when a particle leaves the grid, inverts, turns non-finite or the time step underflows.
 template <int Dim>
-Outcome<Dim> press(const Panel<Dim>& mat, const Schedule& schedule, const mpm::Options& options, const Sink<Dim>& sink,
+Outcome<Dim> press(const Panel<Dim>& mat, const Schedule& schedule, const Setup<Dim>& setup, const Sink<Dim>& sink,
                    const std::optional<Checkpoint<Dim>>& resume = std::nullopt);
 
 }  // namespace strandlab::press

@@ -42,8 +42,10 @@ void check_signs(const Material& m) {
   if (!(m.hardening_K >= 0) || !std::isfinite(m.hardening_K)) {
     reject(m, fmt::format("hardening_K = {} must be zero or a positive finite number", m.hardening_K));
   }
-  if (!(m.hardening_n > 0) || !std::isfinite(m.hardening_n)) {
-    reject(m, fmt::format("hardening_n = {} must be a positive finite number", m.hardening_n));
+  if (!(m.hardening_n >= 1) || !std::isfinite(m.hardening_n)) {
+    reject(m, fmt::format(
+                  "hardening_n = {} must be a finite number of at least 1 (below, hardening starts infinitely steep)",
+                  m.hardening_n));
   }
 }
 

@@ -29,7 +29,7 @@ struct Material {
 const std::vector<Material>& library();
 
 // Throws InputError naming the material, the constant and the rule it breaks: non-positive modulus or density, compliance not
-// positive definite, yield surface not positive semi-definite (|1/Y_R - 1/Y_T| <= 1/Y_L), hardening K < 0 or n <= 0.
+// positive definite, yield surface not positive semi-definite (|1/Y_R - 1/Y_T| <= 1/Y_L), hardening K < 0 or n < 1.
 void validate(const Material& material);
 
 // A material seen in the axes of a strand whose grain makes `angle_deg` with the strand's long axis (rotation about the

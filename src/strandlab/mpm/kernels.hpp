@@ -1,0 +1,146 @@
+// The engine's inner loops, one function per phase. Plain data only: kernels.cpp is compiled once per instruction set and
+// must not share inline code with the rest of the program.
+#pragma once
+
+#include "strandlab/wood/return_map.hpp"
+
+namespace strandlab::mpm {
+
+inline constexpr int kBlock = 8;    // particles per block: one SIMD pack
+inline constexpr int kRecord = 8;   // doubles per node record
+inline constexpr int kMaxFaces = 6;
+inline constexpr int kMaxFields = 24;  // fields meeting at one node
+
+// Particles live in blocks of eight; a block holds one pack per component, in this order.
+template <int Dim>
+struct Component {
+  static constexpr int x = 0, v = Dim, F = 2 * Dim, stress = F + Dim * Dim;
+  static constexpr int plastic(int components) { return stress + components; }     // alpha
+  static constexpr int radius(int components) { return stress + components + 1; }  // 1 + (K/Y) alpha^n
+  static constexpr int count(int components) { return stress + components + 2; }
+};
+
+// Node records before the grid update: {m, p, f} at 0, 1, 1 + Dim; after it: {v, dv} at 0, Dim and m at 7.
+// Surface records: {N = sum w A n, W = sum w A, S = sum w A x.n} at 0, Dim, Dim + 1.
+template <int Dim>
+inline constexpr int kSurfaceRecord = Dim == 2 ? 4 : 8;
+
+// Where the grid is in this step. Node i of an axis is at origin + i*cell.
+template <int Dim>
+struct Frame {
+  double origin[Dim];
+  double cell[Dim];
+  double inverse_cell[Dim];
+  double dt;
+  double gravity[Dim];
+  int wall[Dim][2];  // node index of a roller plane, or kNoWall
+};
+inline constexpr int kNoWall = 1 << 30;
+
+// Dense nodes of a field: `height` rows on each pencil (line of nodes through the thickness), each pencil with its own offset,
+// so that node (pencil, row) is record base[pencil] + row.
+struct Window {
+  int first[2];      // first pencil along each lateral axis
+  int count[2];      // pencils along each lateral axis (2D: count[1] = 1)
+  int height;
+  const int* base;
+};
+
+template <int Dim>
+struct SurfaceView {
+  Window window;
+  const int* where;      // particle of each face point: offset of its x component in the body's blocks
+  const double* offset;  // packs: Dim components of 8 face points, then the next 8
+  const double* area;
+};
+
+template <int Dim>
+struct BodyView {
+  double* blocks;
+  int components;  // stress components stored: 4 or 6
+  double mass, volume;    // of a particle
+  double half_size[Dim];  // mm, at formation
+  const wood::YieldModes<4>* modes4;
+  const wood::YieldModes<6>* modes6;
+  Window window;
+  int faces;
+  SurfaceView<Dim> face[kMaxFaces];
+};
+
+// Unit of parallel work: a run of blocks of one body, and the face points that ride on them (in packs of eight).
+struct Tile {
+  int body;
+  int block_begin, block_end;
+  int face_begin[kMaxFaces], face_end[kMaxFaces];
+};
+
+struct TileResult {
+  double plastic;         // mJ dissipated in this step
+  double kinetic_change;  // mJ, 1/2 sum m |dv|^2 of the particles
+  double drift[3];        // largest displacement per axis, cells
+  long long yielding;
+  int bad;                // block of the first particle that failed + 1, 0: none
+  double ticks[5];        // weights, scatter, surface, material, gather (when profiled)
+};
+
+// A body's nodes on one pencil.
+struct PencilField {
+  int body;
+  int base;           // record index of row 0
+  int row_lo, row_hi; // rows stored: lo <= row < hi
+  int faces;
+  struct {
+    int base, row_lo, row_hi;
+  } face[kMaxFaces];
+};
+
+struct Pencil {
+  int index[2];
+  int field_begin, field_end;  // in the array of PencilField, by body
+  int row_lo, row_hi;          // rows where two fields or a field and a platen may meet
+  int slots;                   // first of the row starts
+  int ghost;                   // behind a roller plane: folded onto its mirror image
+};
+
+struct PlatenView {
+  int present;
+  double position, velocity;
+};
+
+template <int Dim>
+struct GridView {
+  double* nodes;
+  double* surface;
+  const PencilField* fields;
+  const int* row_start;          // per pencil row: range in `slot`
+  const unsigned short* slot;    // fields (relative to the pencil's first) whose windows hold that row
+  PlatenView platen[2];          // bottom, top
+  double friction, platen_friction;
+  const double* traction;        // Dim per (body, face), or null
+};
+
+struct PencilResult {
+  double friction, contact;      // mJ
+  double platen_impulse[2];      // N s, pressing positive
+  double platen_work;            // mJ
+  double kinetic_change;         // mJ, 1/2 sum m |dv|^2 on the grid
+  double external_work;          // mJ
+  double contact_ticks;
+  int overflow;                  // more than kMaxFields fields at a node
+};
+
+template <int Dim>
+struct Kernels {
+  void (*scatter)(const Tile&, const BodyView<Dim>&, const Frame<Dim>&, double* nodes, double* surface,
+                  const unsigned char* lanes, bool profile, TileResult&);
+  void (*update_grid)(const Pencil&, const Frame<Dim>&, const GridView<Dim>&, bool profile, PencilResult&);
+  void (*gather)(const Tile&, const BodyView<Dim>&, const Frame<Dim>&, const double* nodes, const unsigned char* lanes,
+                 bool profile, TileResult&);
+};
+
+// The build of the kernels that suits this machine.
+template <int Dim>
+const Kernels<Dim>& kernels();
+const char* instruction_set();  // name of that build
+
+}  // namespace strandlab::mpm

@@ -1,0 +1,60 @@
+// Where each body's nodes are: dense windows of rows on pencils, and for every pencil the fields that live on it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "strandlab/mpm/kernels.hpp"
+
+namespace strandlab::mpm {
+
+// Rows of nodes that a set of points may touch, per pencil of its lateral bounding box.
+class Extents {
+ public:
+  static constexpr int kReach = 2;  // a stencil reaches one node to each side; one more may be drifted into
+
+  Extents(std::array<int, 2> first, std::array<int, 2> last);  // of the points' nearest nodes
+  void add(std::array<int, 2> pencil, int row);
+  void dilate();                       // by kReach, laterally and in rows
+  void merge(std::array<int, 2> a, std::array<int, 2> b);  // both pencils take the union of their rows
+
+  std::array<int, 2> first, count;
+  std::vector<int> lo, hi;  // inclusive; lo > hi: no rows
+  int index(std::array<int, 2> pencil) const {
+    return (pencil[1] - first[1]) * count[0] + pencil[0] - first[0];
+  }
+  bool contains(std::array<int, 2> pencil) const {
+    return pencil[0] >= first[0] && pencil[0] < first[0] + count[0] && pencil[1] >= first[1] && pencil[1] < first[1] + count[1];
+  }
+
+ private:
+  bool flat_;
+};
+
+// A window over its records, which start at `start` in the node array.
+struct WindowStore {
+  Window window{};
+  std::vector<int> base;
+  std::vector<int> lo, hi;  // rows really used, per pencil
+  int records = 0;
+  void place(const Extents& extents, int start);
+  int pencils() const { return window.count[0] * window.count[1]; }
+};
+
+// All pencils of the grid with their fields, and the rows where fields may meet.
+struct PencilTable {
+  std::vector<Pencil> pencils;
+  std::vector<PencilField> fields;
+  std::vector<int> row_start;
+  std::vector<unsigned short> slots;
+};
+
+struct BodyWindows {
+  WindowStore field;
+  std::vector<WindowStore> faces;
+};
+
+// `walls[axis][side]` is the node index of a roller plane or kNoWall; lateral axes only.
+PencilTable tabulate(const std::vector<BodyWindows>& bodies, const std::array<std::array<int, 2>, 2>& walls);
+
+}  // namespace strandlab::mpm

@@ -1,0 +1,280 @@
+#include "strandlab/press/press.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <deque>
+
+#include "strandlab/core/error.hpp"
+
+namespace strandlab::press {
+namespace {
+
+constexpr double kMmPerM = 1000;
+constexpr double kWarnFrom = 0.05;      // compaction from which inertia is judged
+constexpr double kKineticLimit = 0.05;  // of internal energy
+constexpr double kForceLimit = 0.10;    // difference of the platens' forces
+
+double wall_clock() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Closing speed as a function of time: a cosine ramp from rest to full speed.
+double closing_speed(double time_s, double speed, double ramp_s) {
+  if (time_s >= ramp_s) return speed;
+  return 0.5 * speed * (1 - std::cos(M_PI * time_s / ramp_s));
+}
+
+void check(const Schedule& schedule) {
+  if (!(schedule.speed_m_s > 0)) throw InputError(fmt::format("press: speed {} m/s; it must be positive", schedule.speed_m_s));
+  if (schedule.compactions.empty()) throw InputError("press: no compactions are asked for");
+  double before = -1;
+  for (double c : schedule.compactions) {
+    if (!(c >= 0 && c < 1 && c > before)) {
+      throw InputError(fmt::format("press: compaction {}; compactions must increase and lie in 0 <= C < 1", c));
+    }
+    before = c;
+  }
+}
+
+template <int Dim>
+class Press {
+ public:
+  Press(const Panel<Dim>& mat, const Schedule& schedule, const Setup<Dim>& setup, const Sink<Dim>& sink,
+        const std::optional<Checkpoint<Dim>>& resume)
+      : schedule_(schedule), sink_(sink), state_(resume ? *resume : Checkpoint<Dim>{}) {
+    check(schedule);
+    if (!resume) state_.panel = mat;
+    std::vector<mpm::Body<Dim>> bodies;
+    for (const auto& strand : state_.panel.strands) bodies.push_back(mpm::body_of(strand));
+    engine_.emplace(bodies, setup.grid, setup.engine);
+    if (resume) engine_->set_platens(resume->engine.bottom, resume->engine.top);
+    else engine_->set_platens({mat.bottom_mm, 0}, {mat.top_mm, 0});
+    if (resume) engine_->resume(resume->engine);
+    const double distance = state_.panel.initial_thickness_mm * schedule.compactions.back();
+    ramp_s_ = schedule.ramp_time_fraction * distance / (schedule.speed_m_s * kMmPerM);
+    // A snapshot can fall inside a step; the step is shortened to nothing else, so the state is kept at the first step
+    // at or beyond the requested compaction.
+    transit_s_ = transit_time();
+  }
+
+  Outcome<Dim> run() {
+    const double start = wall_clock();
+    double last_checkpoint = start, last_progress = start;
+    long long checked_steps = 0;
+    const long long first_step = engine_->state().step;
+    keep_snapshots();
+    try {
+      while (state_.snapshots_done < static_cast<int>(schedule_.compactions.size())) {
+        advance();
+        keep_snapshots();
+        if (++checked_steps % 32 != 0) continue;
+        const double now = wall_clock();
+        if (sink_.checkpoint && now - last_checkpoint > sink_.checkpoint_interval_s) {
+          sink_.checkpoint(checkpoint());
+          last_checkpoint = now;
+        }
+        if (sink_.progress && now - last_progress > 0.25) {
+          report(now - start, first_step);
+          last_progress = now;
+        }
+      }
+    } catch (const RunError&) {
+      if (sink_.checkpoint && last_good_) sink_.checkpoint(*last_good_);
+      throw;
+    }
+    Outcome<Dim> outcome;
+    outcome.records = state_.records;
+    outcome.warnings = warnings();
+    outcome.steps = engine_->state().step;
+    outcome.wall_s = wall_clock() - start;
+    outcome.particle_steps_per_s =
+        outcome.wall_s > 0 ? static_cast<double>(engine_->particle_steps()) / outcome.wall_s : 0;
+    outcome.timing = engine_->timing();
+    outcome.bytes = engine_->bytes();
+    outcome.particles = engine_->particles();
+    return outcome;
+  }
+
+ private:
+  double gap() const { return engine_->state().top.position - engine_->state().bottom.position; }
+  double compaction() const { return 1 - gap() / state_.panel.initial_thickness_mm; }
+
+  // Time a wave needs through the mat's thickness: the platens' forces are compared over two of these.
+  double transit_time() const {
+    double slowest = 0;
+    for (const auto& strand : state_.panel.strands) {
+      slowest = std::max(slowest, std::sqrt(strand.material.density / strand.material.stiffness(2, 2)));
+    }
+    return slowest * state_.panel.initial_thickness_mm;
+  }
+
+  void advance() {
+    const double v = closing_speed(engine_->state().time_s, schedule_.speed_m_s * kMmPerM, ramp_s_);
+    if (schedule_.symmetric) engine_->set_platen_velocities(0.5 * v, -0.5 * v);
+    else engine_->set_platen_velocities(0, -v);
+    engine_->step();
+    auto& sum = state_.pending;
+    const double dt = engine_->state().time_step_s;
+    sum.time_ms += dt;  // the weight of the sums
+    sum.force_top_N += engine_->top_force() * dt;
+    sum.force_bottom_N += engine_->bottom_force() * dt;
+    watch_balance(dt);
+    if (compaction() >= static_cast<double>(state_.records.size()) * schedule_.record_interval_compaction) record();
+  }
+
+  // Largest difference of the platens' forces, each averaged over two transits.
+  void watch_balance(double dt) {
+    state_.balance_time_s += dt;
+    state_.balance_top += engine_->top_force() * dt;
+    state_.balance_bottom += engine_->bottom_force() * dt;
+    if (state_.balance_time_s < 2 * transit_s_) return;
+    const double top = state_.balance_top, bottom = state_.balance_bottom;
+    if (compaction() > kWarnFrom && top + bottom > 0) {
+      state_.worst_imbalance = std::max(state_.worst_imbalance, std::abs(top - bottom) / (0.5 * (top + bottom)));
+    }
+    state_.balance_time_s = state_.balance_top = state_.balance_bottom = 0;
+  }
+
+  void record() {
+    Record r = state_.pending;
+    const double span = r.time_ms;
+    if (span > 0) {
+      r.force_top_N /= span;
+      r.force_bottom_N /= span;
+    }
+    const double area = state_.panel.length_mm * state_.panel.depth_mm;
+    // The engine's forces are per mm of depth in a section.
+    if (Dim == 2) {
+      r.force_top_N *= state_.panel.depth_mm;
+      r.force_bottom_N *= state_.panel.depth_mm;
+    }
+    r.stress_MPa = 0.5 * (r.force_top_N + r.force_bottom_N) / area;
+    r.compaction = compaction();
+    r.time_ms = 1e3 * engine_->state().time_s;
+    const auto e = engine_->energies();
+    r.kinetic_mJ = e.kinetic;
+    r.elastic_mJ = e.elastic;
+    r.plastic_mJ = e.plastic;
+    r.friction_mJ = e.friction;
+    r.contact_mJ = e.contact;
+    r.filter_mJ = e.filter;
+    r.platen_work_mJ = e.platen_work;
+    if (r.compaction > kWarnFrom && r.internal_mJ() > 0) {
+      state_.worst_kinetic = std::max(state_.worst_kinetic, engine_->mean_motion_energy() / r.internal_mJ());
+    }
+    state_.records.push_back(r);
+    state_.pending = {};
+    keep_good();
+  }
+
+  // The state to fall back on when a later step fails.
+  void keep_good() {
+    if (!sink_.checkpoint || state_.records.size() % 10 != 0) return;
+    last_good_ = checkpoint();
+  }
+
+  void keep_snapshots() {
+    while (state_.snapshots_done < static_cast<int>(schedule_.compactions.size()) &&
+           compaction() >= schedule_.compactions[state_.snapshots_done] - 1e-12) {
+      engine_->write(state_.panel);
+      const int index = state_.snapshots_done++;
+      if (sink_.snapshot) sink_.snapshot(state_.panel, index);
+      if (sink_.checkpoint) sink_.checkpoint(checkpoint());
+    }
+  }
+
+  Checkpoint<Dim> checkpoint() {
+    engine_->write(state_.panel);
+    state_.engine = engine_->state();
+    return state_;
+  }
+
+  void report(double elapsed, long long first_step) {
+    Progress p;
+    p.compaction = compaction();
+    p.target = schedule_.compactions.back();
+    p.step = engine_->state().step;
+    p.particle_steps_per_s = static_cast<double>(engine_->particle_steps()) / elapsed;
+    const double steps_left = (p.target - p.compaction) * state_.panel.initial_thickness_mm /
+                              (schedule_.speed_m_s * kMmPerM * engine_->state().time_step_s);
+    p.eta_s = steps_left * elapsed / static_cast<double>(std::max<long long>(1, p.step - first_step));
+    sink_.progress(p);
+  }
+
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> w;
+    if (state_.worst_kinetic > kKineticLimit) {
+      w.push_back(fmt::format("The press closed too fast: the energy of the strands' motion reached {:.1f} % of the internal "
+                              "energy (limit {:.0f} %). Lower press.speed_m_s.",
+                              100 * state_.worst_kinetic, 100 * kKineticLimit));
+    }
+    if (state_.worst_imbalance > kForceLimit) {
+      w.push_back(fmt::format("The two platens felt forces that differed by up to {:.0f} % (limit {:.0f} %): the mat was not "
+                              "pressed evenly. Lower press.speed_m_s.",
+                              100 * state_.worst_imbalance, 100 * kForceLimit));
+    }
+    if (!state_.records.empty() && std::abs(state_.records.back().balance_error()) > 0.01) {
+      w.push_back(fmt::format("The energy balance is off by {:.1f} % of the platens' work.",
+                              100 * state_.records.back().balance_error()));
+    }
+    return w;
+  }
+
+  Schedule schedule_;
+  Sink<Dim> sink_;
+  Checkpoint<Dim> state_;
+  std::optional<mpm::Engine<Dim>> engine_;
+  std::optional<Checkpoint<Dim>> last_good_;
+  double ramp_s_ = 0, transit_s_ = 0;
+};
+
+}  // namespace
+
+double Record::balance_error() const {
+  const double terms = kinetic_mJ + elastic_mJ + plastic_mJ + friction_mJ + contact_mJ + filter_mJ;
+  return platen_work_mJ != 0 ? (platen_work_mJ - terms) / platen_work_mJ : 0;
+}
+
+template <int Dim>
+Setup<Dim> setup(const Panel<Dim>& mat, const Resolution& resolution, mpm::Side sides, const mpm::Options& engine) {
+  Setup<Dim> s;
+  s.engine = engine;
+  const int y = Dim - 1;
+  const int rows = 1 + std::max_element(mat.strands.begin(), mat.strands.end(),
+                                        [](const auto& a, const auto& b) { return a.row < b.row; })->row;
+  const double row_height = mat.initial_thickness_mm / rows;
+  s.grid.lo.setZero();
+  s.grid.hi[0] = mat.length_mm;
+  if (Dim == 3) s.grid.hi[1] = mat.depth_mm;
+  s.grid.lo[y] = 0;
+  s.grid.hi[y] = mat.initial_thickness_mm;
+  s.grid.origin = s.grid.lo;
+  const double height = row_height / resolution.cells_through_strand;
+  s.grid.cell[y] = height;
+  for (int a = 0; a < y; ++a) {  // whole cells between the rollers
+    const double width = s.grid.hi[a] - s.grid.lo[a];
+    s.grid.cell[a] = width / std::max(1.0, std::round(width / (height * resolution.cell_aspect)));
+    s.grid.sides[a] = {sides, sides};
+  }
+  s.grid.sides[y] = {mpm::Side::kFree, mpm::Side::kFree};
+  s.grid.follow_platens = resolution.follow_platens;
+  return s;
+}
+
+template <int Dim>
+Outcome<Dim> press(const Panel<Dim>& mat, const Schedule& schedule, const Setup<Dim>& setup, const Sink<Dim>& sink,
+                   const std::optional<Checkpoint<Dim>>& resume) {
+  return Press<Dim>(mat, schedule, setup, sink, resume).run();
+}
+
+template Setup<2> setup<2>(const Panel<2>&, const Resolution&, mpm::Side, const mpm::Options&);
+template Setup<3> setup<3>(const Panel<3>&, const Resolution&, mpm::Side, const mpm::Options&);
+template Outcome<2> press<2>(const Panel<2>&, const Schedule&, const Setup<2>&, const Sink<2>&,
+                             const std::optional<Checkpoint<2>>&);
+template Outcome<3> press<3>(const Panel<3>&, const Schedule&, const Setup<3>&, const Sink<3>&,
+                             const std::optional<Checkpoint<3>>&);
+
+}  // namespace strandlab::press
