@@ -1,0 +1,172 @@
+#include "strandlab/panel/panel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "strandlab/core/error.hpp"
+#include "strandlab/mat/form.hpp"
+
+namespace strandlab {
+namespace {
+
+std::vector<StrandKind> kinds() {
+  return {{"surface", wood::library()[0], 0}, {"core", wood::library()[0], 90}, {"skin", wood::library()[1], 0}};
+}
+
+mat::Mat random_mat(std::uint64_t seed) {
+  mat::Layup layup;
+  layup.length_mm = 60;
+  layup.rows = {{"surface", {150, 20, 15, 4.95}}, {"core", {25, 3, 10, 1}}, {"core", {25, 3, 10, 1}}};
+  return mat::form(layup, seed);
+}
+
+mat::Mat one_strand(double x0, double x1) {
+  mat::Mat mat;
+  mat.length_mm = 100;
+  mat.layer_thickness_mm = 0.8;
+  mat.layers.resize(2);
+  for (auto& layer : mat.layers) {
+    layer.role = "surface";
+    layer.strands.resize(1);
+    layer.strands[0].x0_mm = x0;
+    layer.strands[0].x1_mm = x1;
+  }
+  return mat;
+}
+
+// Strand ends are exact: spacing times points is the strand's length, half a spacing beyond the outermost points are
+// its ends, and neighbouring rows share their faces. The spacing stays within half a particle of what was asked for.
+TEST(MakePanel, ParticlesFillEveryStrandExactly) {
+  const double asked = 0.8 / 6;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const auto mat = random_mat(seed);
+    const auto panel = make_panel(mat, kinds(), asked, 6);
+    std::size_t next = 0;
+    for (std::size_t row = 0; row < mat.layers.size(); ++row) {
+      for (const auto& piece : mat.layers[row].strands) {
+        const auto& s = panel.strands.at(next++);
+        EXPECT_EQ(s.row, static_cast<int>(row));
+        EXPECT_EQ(s.kind, mat.layers[row].role);
+        EXPECT_EQ(s.points[1], 6);
+        ASSERT_EQ(s.size(), static_cast<std::size_t>(s.points[0] * s.points[1]));
+        const double length = piece.x1_mm - piece.x0_mm;
+        EXPECT_NEAR(s.spacing[0] * s.points[0], length, 1e-13 * length);
+        EXPECT_LT(std::abs(s.points[0] - length / asked), 0.5 + 1e-9);
+        EXPECT_NEAR(s.x.front()[0] - s.spacing[0] / 2, piece.x0_mm, 1e-12);
+        EXPECT_NEAR(s.x.back()[0] + s.spacing[0] / 2, piece.x1_mm, 1e-12);
+        EXPECT_NEAR(s.x.front()[1] - s.spacing[1] / 2, 0.8 * s.row, 1e-13);
+        EXPECT_NEAR(s.x.back()[1] + s.spacing[1] / 2, 0.8 * (s.row + 1), 1e-13);
+      }
+    }
+    EXPECT_EQ(next, panel.strands.size());
+  }
+}
+
+// Order of the lattice: along fastest, rows of points from the bottom up.
+TEST(MakePanel, PointsRunAlongFirst) {
+  const auto s = make_panel(one_strand(10, 14), kinds(), 1.0, 2).strands.at(1);
+  ASSERT_EQ(s.points[0], 4);
+  for (int j = 0; j < 2; ++j) {
+    for (int i = 0; i < 4; ++i) {
+      const auto& x = s.x[static_cast<std::size_t>(i + 4 * j)];
+      EXPECT_NEAR(x[0], 10.5 + i, 1e-13);
+      EXPECT_NEAR(x[1], 1.0 + 0.4 * j, 1e-13);
+    }
+  }
+}
+
+TEST(MakePanel, AStrandShorterThanTheSpacingIsOnePointLong) {
+  const auto s = make_panel(one_strand(99.99, 100), kinds(), 0.4, 3).strands.at(0);
+  EXPECT_EQ(s.points[0], 1);
+  EXPECT_NEAR(s.spacing[0], 0.01, 1e-12);
+  EXPECT_NEAR(s.x[0][0], 99.995, 1e-12);
+}
+
+TEST(MakePanel, StartsAtRestUnstrainedAndUncompacted) {
+  const auto panel = make_panel(random_mat(1), kinds(), 0.4, 3);
+  EXPECT_EQ(panel.length_mm, 60);
+  EXPECT_DOUBLE_EQ(panel.thickness_mm(), 2.4);
+  EXPECT_EQ(panel.compaction(), 0);
+  for (const auto& s : panel.strands) {
+    for (std::size_t p = 0; p < s.size(); ++p) {
+      EXPECT_EQ(s.F[p], Tensor<2>::Identity());
+      EXPECT_TRUE(s.v[p].isZero(0) && s.stress[p].isZero(0));
+      EXPECT_EQ(s.plastic[p], 0);
+    }
+  }
+}
+
+// A strand takes angle and material from its kind unless the mat file gives its own.
+TEST(MakePanel, StrandsMayDifferFromTheirKind) {
+  auto mat = one_strand(0, 100);
+  mat.layers[1].strands[0].angle_deg = 45;
+  mat.layers[1].strands[0].material = "vtc";
+  const auto panel = make_panel(mat, kinds(), 0.4, 3);
+  EXPECT_EQ(panel.strands[0].angle_deg, 0);
+  EXPECT_EQ(panel.strands[0].material.stiffness, wood::in_strand_axes(wood::library()[0], 0).stiffness);
+  EXPECT_EQ(panel.strands[1].angle_deg, 45);
+  EXPECT_EQ(panel.strands[1].material.stiffness, wood::in_strand_axes(wood::library()[1], 45).stiffness);
+  EXPECT_DOUBLE_EQ(panel.strands[1].material.density, 910e-12);
+}
+
+TEST(MakePanel, UnknownRoleAndMaterialAreInputErrors) {
+  auto mat = one_strand(0, 100);
+  mat.layers[1].role = "veneer";
+  try {
+    make_panel(mat, kinds(), 0.4, 3);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("layer 2: role \"veneer\""), std::string::npos) << error.what();
+  }
+  mat = one_strand(0, 100);
+  mat.layers[1].strands[0].material = "balsa";
+  try {
+    make_panel(mat, kinds(), 0.4, 3);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("\"balsa\""), std::string::npos) << error.what();
+  }
+}
+
+// Corners of an undeformed strand are the rectangle's lattice: i dx, j dy from its lower left corner.
+TEST(Corners, OfAnUndeformedStrandAreExact) {
+  const auto s = make_panel(one_strand(12.5, 31.7), kinds(), 0.3, 4).strands.at(1);
+  const auto c = corners(s);
+  ASSERT_EQ(c.size(), static_cast<std::size_t>((s.points[0] + 1) * 5));
+  for (int j = 0; j <= 4; ++j) {
+    for (int i = 0; i <= s.points[0]; ++i) {
+      const auto& corner = c[static_cast<std::size_t>(i + (s.points[0] + 1) * j)];
+      EXPECT_NEAR(corner[0], 12.5 + i * 19.2 / s.points[0], 1e-12);
+      EXPECT_NEAR(corner[1], 0.8 + 0.2 * j, 1e-12);
+    }
+  }
+}
+
+// Under x -> A x + b all domains that meet at a corner put it at the same place, so the mean is exact.
+TEST(Corners, OfAnAffinelyDeformedStrandAreExact) {
+  auto s = make_panel(one_strand(12.5, 31.7), kinds(), 0.3, 4).strands.at(0);
+  const auto before = corners(s);
+  Tensor<2> A;
+  A << 1.03, 0.21, -0.15, 0.62;
+  const Vec<2> b(3.5, -0.7);
+  for (std::size_t p = 0; p < s.size(); ++p) {
+    s.x[p] = A * s.x[p] + b;
+    s.F[p] = A;
+  }
+  const auto after = corners(s);
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LT((after[i] - (A * before[i] + b)).norm(), 1e-12) << i;
+}
+
+// The grain is a material line: it follows F a0 (.2 of shear turns it by atan .2), not the polar rotation (half of
+// that).
+TEST(Grain, FollowsTheMaterialLine) {
+  Tensor<2> F;
+  F << 1, 0.5, 0.2, 0.6;
+  EXPECT_NEAR(std::atan2(grain<2>(F)[1], grain<2>(F)[0]), std::atan(0.2), 1e-15);
+  EXPECT_NEAR(grain<2>(F).norm(), 1, 1e-15);
+}
+
+}  // namespace
+}  // namespace strandlab
