@@ -1,0 +1,180 @@
+#include "strandlab/theory/models.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "strandlab/core/error.hpp"
+
+namespace strandlab::theory {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+double square(double x) {
+  return x * x;
+}
+
+double nu_LT(const wood::Material& m) {
+  return m.nu_TL * m.E_L / m.E_T;
+}
+
+// Mean of a smooth function of the grain angle with period 180 degrees: equally spaced angles converge exponentially.
+template <typename Function>
+double angle_average(const Function& value) {
+  constexpr int kAngles = 720;
+  double sum = 0;
+  for (int i = 0; i < kAngles; ++i) sum += value(180.0 * i / kAngles - 90);
+  return sum / kAngles;
+}
+
+void check_compaction(double compaction) {
+  if (!(compaction >= 0) || !(compaction < 1))
+    throw InputError(fmt::format("compaction {:g} is not in 0 <= C < 1", compaction));
+}
+
+void check_rows(std::size_t rows) {
+  if (rows == 0) throw InputError("a panel needs at least one row of strands");
+}
+
+std::vector<double> row_moduli(const std::vector<Row>& rows, OffAxis off_axis) {
+  std::vector<double> moduli;
+  for (const Row& row : rows) moduli.push_back(strand_modulus_MPa(row, off_axis) * solid_fraction(row.statistics));
+  return moduli;
+}
+
+}  // namespace
+
+const char* name(OffAxis choice) {
+  return choice == OffAxis::kUncoupled ? "uncoupled" : "exact";
+}
+
+OffAxis off_axis_from_name(const std::string& text) {
+  for (OffAxis choice : {OffAxis::kUncoupled, OffAxis::kExact})
+    if (text == name(choice)) return choice;
+  throw InputError(fmt::format("offaxis '{}' is not known; allowed: exact, uncoupled", text));
+}
+
+double solid_fraction(const mat::StrandStatistics& s) {
+  return s.gap_mm > 0 ? s.length_mm / (s.length_mm + s.gap_mm) : 1;
+}
+
+bool runs_along(const Row& row) {
+  return std::abs(std::cos(row.angle_deg * kPi / 180)) > std::sqrt(0.5);
+}
+
+double off_axis_modulus_MPa(const wood::Material& m, double angle_deg) {
+  const double c2 = square(std::cos(angle_deg * kPi / 180)), s2 = 1 - c2;
+  return 1 / (square(c2) / m.E_L + (1 / m.G_TL - 2 * nu_LT(m) / m.E_L) * s2 * c2 + square(s2) / m.E_T);
+}
+
+double plane_strain_modulus_MPa(const wood::Material& material, double angle_deg) {
+  const VoigtMatrix C = wood::in_strand_axes(material, angle_deg).stiffness;
+  return C(0, 0) - square(C(0, 2)) / C(2, 2);
+}
+
+double off_axis_average_MPa(const wood::Material& material) {
+  return angle_average([&](double angle) { return off_axis_modulus_MPa(material, angle); });
+}
+
+double plane_strain_average_MPa(const wood::Material& material) {
+  return angle_average([&](double angle) { return plane_strain_modulus_MPa(material, angle); });
+}
+
+double quasi_isotropic_modulus_MPa(const wood::Material& m) {
+  const double shrink = 1 - nu_LT(m) * m.nu_TL;
+  const double Q11 = m.E_L / shrink, Q22 = m.E_T / shrink, Q12 = m.nu_TL * m.E_L / shrink, Q66 = m.G_TL;
+  const double U1 = (3 * Q11 + 3 * Q22 + 2 * Q12 + 4 * Q66) / 8, U4 = (Q11 + Q22 + 6 * Q12 - 4 * Q66) / 8;
+  return (square(U1) - square(U4)) / U1;
+}
+
+double strand_modulus_MPa(const Row& row, OffAxis off_axis) {
+  return off_axis == OffAxis::kExact ? plane_strain_modulus_MPa(row.material, row.angle_deg)
+                                     : off_axis_modulus_MPa(row.material, row.angle_deg);
+}
+
+double tension_of_moduli_MPa(const std::vector<double>& moduli, double compaction) {
+  check_compaction(compaction);
+  check_rows(moduli.size());
+  return std::accumulate(moduli.begin(), moduli.end(), 0.0) / static_cast<double>(moduli.size()) / (1 - compaction);
+}
+
+double bending_of_moduli_MPa(const std::vector<double>& moduli, double compaction) {
+  check_compaction(compaction);
+  check_rows(moduli.size());
+  // Rows of height 1 about the neutral axis, which an unsymmetrical layup moves off the middle.
+  const auto n = static_cast<double>(moduli.size());
+  double stretch = 0, moment = 0, stiffness = 0;
+  for (std::size_t i = 0; i < moduli.size(); ++i) {
+    const double y = static_cast<double>(i) + 0.5;
+    stretch += moduli[i];
+    moment += moduli[i] * y;
+    stiffness += moduli[i] * (1.0 / 12 + square(y));
+  }
+  return (stiffness - square(moment) / stretch) / (n * n * n / 12) / (1 - compaction);
+}
+
+double tension_modulus_MPa(const std::vector<Row>& rows, double compaction, OffAxis off_axis) {
+  return tension_of_moduli_MPa(row_moduli(rows, off_axis), compaction);
+}
+
+double bending_modulus_MPa(const std::vector<Row>& rows, double compaction, OffAxis off_axis) {
+  return bending_of_moduli_MPa(row_moduli(rows, off_axis), compaction);
+}
+
+double random_core_modulus_MPa(const std::vector<Row>& rows, double core_modulus, double compaction, OffAxis off_axis) {
+  std::vector<double> moduli = row_moduli(rows, off_axis);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (!runs_along(rows[i])) moduli[i] = core_modulus * solid_fraction(rows[i].statistics);
+  return tension_of_moduli_MPa(moduli, compaction);
+}
+
+double strand_efficiency(const ShearLag& s, double compliance) {
+  const double V_m = 1 - s.V_w;
+  if (!(V_m > 0)) return 1;
+  const double stiffness = 1 / (s.E_m_MPa * V_m) + 1 / (s.E_w_MPa * s.V_w);
+  const double shear = s.V_w / (3 * s.G_w_MPa) + V_m / (3 * s.G_m_MPa) + compliance / s.spacing_mm;
+  if (!(shear > 0))
+    throw InputError(
+        fmt::format("glue compliance 1/D_t = {:g} mm/MPa takes away more than the shear compliance of strands "
+                    "and matrix; it must be above {:g}",
+                    compliance, compliance - shear * s.spacing_mm));
+  const double gamma = std::sqrt(stiffness / shear) * s.length_mm / (2 * s.spacing_mm);
+  return gamma > 1e-4 ? 1 - std::tanh(gamma) / gamma : square(gamma) / 3;
+}
+
+double shear_lag_modulus_MPa(const ShearLag& s, double compliance) {
+  return strand_efficiency(s, compliance) * s.E_w_MPa * s.V_w + s.E_m_MPa * (1 - s.V_w);
+}
+
+double shear_lag_panel_MPa(const std::vector<Row>& rows, double row_thickness_mm, const Matrix& matrix,
+                           double compliance, double compaction, OffAxis off_axis) {
+  std::vector<double> moduli = row_moduli(rows, off_axis);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& row = rows[i];
+    if (!runs_along(row)) continue;
+    moduli[i] =
+        shear_lag_modulus_MPa({strand_modulus_MPa(row, off_axis), row.material.G_RL, solid_fraction(row.statistics),
+                               matrix.modulus_MPa, matrix.shear_MPa, row.statistics.length_mm, row_thickness_mm},
+                              compliance);
+  }
+  return tension_of_moduli_MPa(moduli, compaction);
+}
+
+double density_kg_m3(const std::vector<Row>& rows, double compaction) {
+  check_compaction(compaction);
+  check_rows(rows.size());
+  double sum = 0;
+  for (const Row& row : rows) sum += row.material.density_kg_m3 * solid_fraction(row.statistics);
+  return sum / static_cast<double>(rows.size()) / (1 - compaction);
+}
+
+double modulus_at_density_MPa(const std::vector<Row>& rows, double density, OffAxis off_axis) {
+  const double loose = density_kg_m3(rows, 0);
+  if (!(density >= loose) || !std::isfinite(density))
+    throw InputError(fmt::format("density {:g} kg/m3 is below that of the mat, {:g} kg/m3", density, loose));
+  return tension_modulus_MPa(rows, 0, off_axis) / loose * density;
+}
+
+}  // namespace strandlab::theory
