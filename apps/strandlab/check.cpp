@@ -1,0 +1,42 @@
+// strandlab check: the resolved case and what it will cost, before anything runs.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "case_arguments.hpp"
+#include "commands.hpp"
+#include "duration.hpp"
+#include "strandlab/io/case_estimate.hpp"
+#include "strandlab/io/case_write.hpp"
+
+namespace strandlab::app {
+namespace {
+
+// As comments, so that the output is a case file again.
+void check(const CaseArguments& arguments) {
+  const auto c = arguments.read();
+  const auto mat = io::make_mat(c);
+  const auto e = io::estimate(c, io::make_panel(c, mat));
+  fmt::print("{}\n", io::resolved_text(c));
+  fmt::print("# mat: {} rows, {} strands, {:g} x {:g} mm\n", mat.layers.size(), e.strands, mat.length_mm,
+             mat.layer_thickness_mm * static_cast<double>(mat.layers.size()));
+  fmt::print("# particles: {}\n# cells: {} of {:.4g} x {:.4g} mm\n", e.particles, e.cells, e.cell_length_mm,
+             e.cell_height_mm);
+  fmt::print("# steps: {:.0f} of {:.3g} s, {:.3g} ms of pressing\n", e.steps, e.time_step_s, 1e3 * e.pressing_time_s);
+  fmt::print("# memory: {:.0f} MB\n# disk: {:.0f} MB\n", e.memory_bytes / 1e6, e.disk_bytes / 1e6);
+  fmt::print("# estimated run time on {} thread(s): {} pressing, {} tests\n", io::thread_count(c), duration(e.press_s),
+             duration(e.test_s));
+}
+
+}  // namespace
+
+void add_check(CLI::App& app) {
+  auto arguments = std::make_shared<CaseArguments>();
+  auto* command =
+      app.add_subcommand("check", "check a case; print it resolved, with particles, steps, memory and run time");
+  add_case_arguments(*command, *arguments);
+  command->callback([arguments] { check(*arguments); });
+}
+
+}  // namespace strandlab::app

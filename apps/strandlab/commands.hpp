@@ -1,0 +1,17 @@
+// Subcommands of the program: each adds itself to the command line and does its work when it is called.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace strandlab::app {
+
+void add_init(CLI::App& app);
+void add_check(CLI::App& app);
+void add_mat(CLI::App& app);
+void add_press(CLI::App& app);
+void add_test(CLI::App& app);
+void add_run(CLI::App& app);
+
+}  // namespace strandlab::app

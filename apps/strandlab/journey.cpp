@@ -1,0 +1,92 @@
+#include "journey.hpp"
+
+#include <fmt/format.h>
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "git_hash.hpp"
+#include "strandlab/core/error.hpp"
+#include "strandlab/core/version.hpp"
+#include "strandlab/io/case_estimate.hpp"
+
+namespace strandlab::app {
+namespace {
+
+std::string cpu_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos)
+      return line.substr(line.find(": ") + 2);
+  }
+  return "unknown";
+}
+
+nlohmann::json machine() {
+  utsname system{};
+  ::uname(&system);
+  return {{"host", system.nodename},
+          {"cpu", cpu_name()},
+          {"cores", std::thread::hardware_concurrency()},
+          {"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)}};
+}
+
+// Memory (bytes) of this machine.
+double machine_memory() {
+  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+}
+
+void refuse_too_large(const io::Estimate& e, const std::string& file) {
+  if (e.memory_bytes < machine_memory()) return;
+  throw InputError(
+      fmt::format("{}: the case has {} particles and needs about {:.0f} MB of memory, this machine has {:.0f} MB; "
+                  "shorten mat.length_mm or lower grid.cells_through_strand",
+                  file, e.particles, e.memory_bytes / 1e6, machine_memory() / 1e6));
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+Journey start(const CaseArguments& arguments, io::Step first) {
+  auto c = arguments.read();
+  auto mat = io::make_mat(c);
+  auto panel = io::make_panel(c, mat);
+  const auto e = io::estimate(c, panel);
+  refuse_too_large(e, arguments.file);
+  io::RunFolder folder(arguments.run_folder(c), c, first, arguments.force, e.disk_bytes);
+  folder.record()["strandlab"] = version();
+  folder.record()["git"] = kGitHash;
+  folder.record()["seed"] = c.seed;
+  folder.record()["machine"] = machine();
+  return {std::move(c), std::move(mat), std::move(panel), std::move(folder)};
+}
+
+void do_mat(Journey& journey, Console& console) {
+  auto& folder = journey.folder;
+  const auto file = folder.file("mat.json");
+  const auto text = mat::to_text(journey.mat);
+  if (folder.finished(io::Step::kMat)) {
+    if (read_text(file) != text) {
+      throw InputError(
+          fmt::format("{}: not the mat of this case (changed by hand, or the mat file has changed since); choose "
+                      "another run folder with -o, or --force",
+                      file.string()));
+    }
+    return;
+  }
+  mat::write(journey.mat, file);
+  folder.set_finished(io::Step::kMat);
+  console.say(fmt::format("mat: {} rows, {} strands -> {}", journey.mat.layers.size(), journey.panel.strands.size(),
+                          file.string()));
+}
+
+}  // namespace strandlab::app

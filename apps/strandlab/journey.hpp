@@ -1,0 +1,27 @@
+// The journey of a panel through a run folder, mat -> press -> test; each step goes on from what the folder holds.
+#pragma once
+
+#include "case_arguments.hpp"
+#include "console.hpp"
+#include "strandlab/io/run_folder.hpp"
+
+namespace strandlab::app {
+
+struct Journey {
+  io::Case c;
+  mat::Mat mat;
+  Panel<2> panel;  // before pressing
+  io::RunFolder folder;
+};
+
+// Reads and checks everything, then opens the run folder; with --force the steps from `first` on start again. Throws
+// InputError with nothing written.
+Journey start(const CaseArguments& arguments, io::Step first);
+
+// Each does its step unless the folder has it already, and says so. Throws InputError where a file of the folder cannot
+// be used, RunError for a failed simulation.
+void do_mat(Journey& journey, Console& console);
+void do_press(Journey& journey, Console& console);
+void do_test(Journey& journey, Console& console);
+
+}  // namespace strandlab::app

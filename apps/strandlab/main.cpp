@@ -1,0 +1,69 @@
+// strandlab: a virtual laboratory for wood-strand composites.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "git_hash.hpp"
+#include "strandlab/core/error.hpp"
+#include "strandlab/core/nearest.hpp"
+#include "strandlab/core/version.hpp"
+
+namespace {
+
+enum Exit { kDone = 0, kBadInput = 2, kFailed = 3 };
+
+int fail(Exit code, const char* what) {
+  fmt::print(stderr, "strandlab: {}\n", what);
+  return code;
+}
+
+// An unknown command is answered by the nearest one.
+void refuse_unknown_command(const CLI::App& app, const std::string& given) {
+  std::vector<std::string> names;
+  for (const auto* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), given) != names.end()) return;
+  const auto near = strandlab::nearest(given, names);
+  throw strandlab::InputError(fmt::format("unknown command \"{}\"{} Commands: {}", given,
+                                          near.empty() ? "." : fmt::format("; did you mean \"{}\"?", near),
+                                          strandlab::quoted_list(names)));
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Presses random strand mats and measures the moduli of the panels.", "strandlab");
+  app.set_version_flag("--version", fmt::format("strandlab {} ({})", strandlab::version(), kGitHash));
+  app.require_subcommand(1);
+  strandlab::app::add_init(app);
+  strandlab::app::add_check(app);
+  strandlab::app::add_mat(app);
+  strandlab::app::add_press(app);
+  strandlab::app::add_test(app);
+  strandlab::app::add_run(app);
+  if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? kDone : kBadInput;
+  }
+  return kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const strandlab::InputError& e) {
+    return fail(kBadInput, e.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kFailed, "out of memory");
+  } catch (const std::exception& e) {
+    return fail(kFailed, e.what());
+  }
+}

@@ -1,0 +1,134 @@
+// strandlab test: virtual tests of the pressed panel at each compaction and glue quality.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+
+#include "commands.hpp"
+#include "duration.hpp"
+#include "journey.hpp"
+#include "strandlab/core/error.hpp"
+#include "strandlab/io/checkpoint.hpp"
+#include "strandlab/report/plots.hpp"
+#include "strandlab/report/result_tables.hpp"
+#include "strandlab/vtest/vtest.hpp"
+
+namespace strandlab::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// What run.json keeps of the tests at one compaction; the moduli come back bit for bit.
+Json to_json(double compaction, const vtest::Result& result, double wall_s) {
+  Json moduli = Json::array();
+  for (const auto& m : result.moduli) {
+    moduli.push_back({{"test", vtest::name(m.kind)},
+                      {"compliance_t_mm_per_MPa", m.compliance_t_mm_per_MPa},
+                      {"modulus_MPa", m.modulus_MPa},
+                      {"reaction_modulus_MPa", m.reaction_modulus_MPa}});
+  }
+  return {{"compaction", compaction},
+          {"moduli", moduli},
+          {"floating_strands", result.floating_strands},
+          {"glued_fraction", result.glued_fraction},
+          {"unknowns", result.unknowns},
+          {"wall_s", wall_s},
+          {"assemble_s", result.assemble_s},
+          {"analyse_s", result.analyse_s},
+          {"factor_s", result.factor_s},
+          {"solve_s", result.solve_s},
+          {"warnings", result.warnings}};
+}
+
+std::vector<report::PanelModulus> moduli_of(const Json& states) {
+  std::vector<report::PanelModulus> moduli;
+  for (const auto& state : states) {
+    for (const auto& m : state.at("moduli")) {
+      moduli.push_back({state.at("compaction"), m.at("test"), m.at("compliance_t_mm_per_MPa"), m.at("modulus_MPa"),
+                        m.at("reaction_modulus_MPa")});
+    }
+  }
+  return moduli;
+}
+
+void write_plots(const Journey& journey, const std::vector<report::PanelModulus>& moduli, Console& console) {
+  const auto plots = journey.folder.file("plots");
+  fs::create_directories(plots);
+  for (const auto kind : journey.c.test.kinds) {
+    const std::string test = vtest::name(kind);
+    for (const auto& warning :
+         {report::plot_modulus_against_compliance(moduli, test, plots / (test + "_against_compliance.png")),
+          report::plot_modulus_against_compaction(moduli, test, plots / (test + "_against_compaction.png"))}) {
+      if (warning) console.warn(*warning);
+    }
+  }
+}
+
+void test_state(Journey& journey, const Panel<2>& panel, double compaction, Console& console) {
+  auto& folder = journey.folder;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto result = vtest::measure(panel, journey.c.test);
+  for (const auto& warning : result.warnings) console.warn(fmt::format("compaction {}: {}", compaction, warning));
+  auto& states = folder.record(io::Step::kTest)["states"];
+  states.push_back(to_json(compaction, result, seconds_since(begin)));
+  report::moduli_table(moduli_of(states)).write(folder.file("moduli.csv"));
+  folder.save();
+  for (std::size_t i = 0; i < std::min(result.moduli.size(), journey.c.test.kinds.size()); ++i) {
+    const auto& m = result.moduli[i];
+    console.say(fmt::format("test: compaction {}, {}, 1/D_t = {}: {:.0f} MPa", compaction, vtest::name(m.kind),
+                            m.compliance_t_mm_per_MPa, m.modulus_MPa));
+  }
+}
+
+void test_alone(const CaseArguments& arguments) {
+  auto journey = start(arguments, io::Step::kTest);
+  Console console;
+  do_test(journey, console);
+}
+
+}  // namespace
+
+void do_test(Journey& journey, Console& console) {
+  auto& folder = journey.folder;
+  if (folder.finished(io::Step::kTest)) {
+    console.say(fmt::format("test: already done, {}", folder.file("moduli.csv").string()));
+    return;
+  }
+  if (!folder.finished(io::Step::kPress)) {
+    throw InputError(
+        fmt::format("{}: holds no pressed panel yet: strandlab press (or run) comes first", folder.path().string()));
+  }
+  const auto hash = io::case_hash(journey.c, io::Step::kPress);
+  std::vector<Panel<2>> panels;
+  for (const double compaction : journey.c.schedule.compactions) {
+    panels.push_back(io::read_panel<2>(folder.panel_file(compaction), hash));
+  }
+  console.log_to(folder.file("log.txt"));
+  auto& states = folder.record(io::Step::kTest)["states"];
+  if (states.is_null()) states = Json::array();
+  for (auto i = states.size(); i < panels.size(); ++i) {
+    const double compaction = journey.c.schedule.compactions[i];
+    console.progress(fmt::format("test   {:3.0f} %  compaction {}",
+                                 100.0 * static_cast<double>(i) / static_cast<double>(panels.size()), compaction));
+    test_state(journey, panels[i], compaction, console);
+  }
+  write_plots(journey, moduli_of(states), console);
+  folder.set_finished(io::Step::kTest);
+  console.say(fmt::format("test: {} moduli -> {}", moduli_of(states).size(), folder.file("moduli.csv").string()));
+}
+
+void add_test(CLI::App& app) {
+  auto arguments = std::make_shared<CaseArguments>();
+  auto* command = app.add_subcommand("test", "measure the moduli of the pressed panel: moduli.csv");
+  add_case_arguments(*command, *arguments);
+  add_folder_arguments(*command, *arguments);
+  command->callback([arguments] { test_alone(*arguments); });
+}
+
+}  // namespace strandlab::app

@@ -1,0 +1,88 @@
+#include "strandlab/io/case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "strandlab/core/error.hpp"
+#include "strandlab/core/nearest.hpp"
+
+namespace strandlab::io {
+namespace {
+
+std::vector<std::string> kind_names(const Case& c) {
+  std::vector<std::string> names;
+  for (const auto& kind : c.kinds) names.push_back(kind.name);
+  return names;
+}
+
+const KindSettings& find_kind(const Case& c, const std::string& name, const std::string& row) {
+  for (const auto& kind : c.kinds) {
+    if (kind.name == name) return kind;
+  }
+  const auto names = kind_names(c);
+  const auto near = nearest(name, names);
+  throw InputError(fmt::format("row \"{}\" names no kind of strand{} Kinds of this case: {}", row,
+                               near.empty() ? "." : fmt::format("; did you mean \"{}\"?", near), quoted_list(names)));
+}
+
+// "core*10" -> 10 rows of core.
+std::pair<std::string, int> parse_row(const std::string& row) {
+  const auto star = row.find('*');
+  if (star == std::string::npos) return {row, 1};
+  int count = 0;
+  const char* end = row.data() + row.size();
+  const auto [last, error] = std::from_chars(row.data() + star + 1, end, count);
+  if (error != std::errc() || last != end || count < 1 || count > 10000) {
+    throw InputError(fmt::format("row \"{}\": after * comes a number of rows from 1 to 10000, as in \"core*10\"", row));
+  }
+  return {row.substr(0, star), count};
+}
+
+wood::Material find_material(const Case& c, const std::string& name) {
+  for (const auto& user : c.materials) {
+    if (user.material.name == name) return user.material;
+  }
+  for (const auto& built_in : wood::library()) {
+    if (built_in.name == name) return built_in;
+  }
+  throw InputError(fmt::format("there is no material \"{}\"", name));
+}
+
+}  // namespace
+
+Case::Case() : kinds{{"surface", "poplar", 0, {150, 20, 15, 4.95}}, {"core", "poplar", 90, {25, 3, 10, 1}}} {
+  test.compliance_t_mm_per_MPa = {0, 0.0021, 0.0105, 0.0163, 0.05};
+}
+
+mat::Layup layup(const Case& c) {
+  mat::Layup result{c.length_mm, c.layer_thickness_mm, {}};
+  for (const auto& text : c.rows) {
+    const auto row = parse_row(text);
+    const auto& kind = find_kind(c, row.first, text);
+    result.rows.insert(result.rows.end(), static_cast<std::size_t>(row.second), {kind.name, kind.statistics});
+  }
+  return result;
+}
+
+std::vector<StrandKind> strand_kinds(const Case& c) {
+  std::vector<StrandKind> kinds;
+  for (const auto& kind : c.kinds) kinds.push_back({kind.name, find_material(c, kind.material), kind.angle_deg});
+  return kinds;
+}
+
+mat::Mat make_mat(const Case& c) {
+  return c.mat_file.empty() ? mat::form(layup(c), c.seed) : mat::read(c.mat_file, kind_names(c));
+}
+
+Panel<2> make_panel(const Case& c, const mat::Mat& mat) {
+  auto kinds = strand_kinds(c);
+  // A strand of a mat file may name any material of the case, also one that no kind uses.
+  for (const auto& user : c.materials) kinds.push_back({"material " + user.material.name, user.material, 0});
+  const double cell_height = mat.layer_thickness_mm / c.grid.cells_through_strand;
+  return strandlab::make_panel(mat, kinds, cell_height * c.grid.cell_aspect / c.grid.points_per_cell,
+                               c.grid.cells_through_strand * c.grid.points_per_cell);
+}
+
+}  // namespace strandlab::io

@@ -1,0 +1,80 @@
+// A case: everything a user can decide about a panel, from the mat to the virtual tests.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "strandlab/mat/form.hpp"
+#include "strandlab/mpm/engine.hpp"
+#include "strandlab/panel/panel.hpp"
+#include "strandlab/press/press.hpp"
+#include "strandlab/vtest/vtest.hpp"
+
+namespace strandlab::io {
+
+// [kinds.NAME]: a kind of strand as the case names it.
+struct KindSettings {
+  std::string name;
+  std::string material = "poplar";  // built in, or one of [materials]
+  double angle_deg = 0;
+  mat::StrandStatistics statistics;  // mm
+};
+
+// [materials.NAME]: a user's material, a built-in one with some constants changed.
+struct MaterialSettings {
+  std::string base = "poplar";
+  wood::Material material;
+};
+
+struct GridSettings {
+  int cells_through_strand = 3;
+  int points_per_cell = 2;  // per axis
+  double cell_aspect = 2;   // length of a cell over its height
+  bool follow_platens = true;
+};
+
+// The defaults are the main job: an OSB mat of 20 rows pressed to 40 %.
+struct Case {
+  Case();
+
+  std::string name = "case";
+  double length_mm = 100;
+  double layer_thickness_mm = 0.8;
+  std::vector<std::string> rows{"surface*5", "core*10", "surface*5"};  // bottom to top, "kind" or "kind*count"
+  std::string mat_file;                                                // absolute path; empty: random forming
+  std::vector<KindSettings> kinds;
+  std::vector<MaterialSettings> materials;
+  press::Schedule schedule;
+  mpm::Side sides = mpm::Side::kRoller;
+  GridSettings grid;
+  mpm::Options mpm;  // its thread count is set from `threads` when a run starts
+  vtest::Options test;
+  int threads = 0;  // 0: all cores
+  std::uint64_t seed = 1;
+  double checkpoint_interval_s = 30;
+};
+
+// Reads a case file and applies overrides ("key.path=value", TOML values or bare words). Throws InputError with file,
+// line, key, what was given and what is allowed for anything a run could not use; a relative mat.file counts from the
+// case file.
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+// The same from the text of a case; `source` stands for the file in messages.
+Case case_from_text(const std::string& text, const std::string& source, const std::vector<std::string>& overrides = {});
+
+// Ready cases of `strandlab init`: "osb", "osl", "plywood", "lvl". Throws InputError for another name.
+const std::vector<std::string>& ready_cases();
+Case ready_case(const std::string& name);
+// One line on what it is: "OSB: ...".
+std::string ready_case_title(const std::string& name);
+
+// Rows of the layup with the statistics of their kinds. Throws InputError for a row that names no kind.
+mat::Layup layup(const Case& c);
+std::vector<StrandKind> strand_kinds(const Case& c);
+// The mat of a case: read from its mat file, else formed with its seed. Throws InputError for a bad mat file.
+mat::Mat make_mat(const Case& c);
+// The panel before pressing, with the material points of the case's grid.
+Panel<2> make_panel(const Case& c, const mat::Mat& mat);
+
+}  // namespace strandlab::io

@@ -1,0 +1,77 @@
+#include "strandlab/io/case_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+namespace strandlab::io {
+namespace {
+
+// Costs as measured on the reference machine (docs/performance.md).
+constexpr double kNsPerParticleStep = 60;         // one thread, mean over a pressing to 40 %
+constexpr double kSpeedUpPerThread = 0.8;         // of each further thread
+constexpr double kBytesPerParticle = 700;         // of a pressing, grid included
+constexpr double kStoredBytesPerParticle = 600;   // of one state: HDF5 and ParaView
+constexpr double kSolveSecondsPerElement = 4e-6;  // of a virtual test, per factorisation and element
+constexpr double kSolveExponent = 1.2;            // sparse Cholesky in two dimensions
+constexpr double kElementsAtReference = 1e5;
+
+// Shortest time (s) in which a wave passes a cell, over all strands and both axes.
+double transit_time(const Panel<2>& panel, double cell_length, double cell_height) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const auto& strand : panel.strands) {
+    const double along = std::sqrt(strand.material.stiffness(0, 0) / strand.material.density);
+    const double through = std::sqrt(strand.material.stiffness(2, 2) / strand.material.density);
+    shortest = std::min({shortest, cell_length / along, cell_height / through});
+  }
+  return shortest;
+}
+
+// Elements of the virtual tests: as many through each strand as the case says, about as long as high.
+double elements(const Case& c, const Panel<2>& panel) {
+  const double through = c.test.elements_through_strand;
+  double count = 0;
+  for (const auto& strand : panel.strands) {
+    const double length = strand.points[0] * strand.spacing[0], height = strand.points[1] * strand.spacing[1];
+    count += through * length / (height / through * c.grid.cell_aspect);
+  }
+  return count;
+}
+
+}  // namespace
+
+int thread_count(const Case& c) {
+  return c.threads > 0 ? c.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+Estimate estimate(const Case& c, const Panel<2>& panel) {
+  Estimate e;
+  e.strands = panel.strands.size();
+  double highest_strand = 0;
+  for (const auto& strand : panel.strands) {
+    e.particles += strand.size();
+    highest_strand = std::max(highest_strand, strand.points[1] * strand.spacing[1]);
+  }
+  e.cell_height_mm = highest_strand / c.grid.cells_through_strand;
+  e.cell_length_mm = e.cell_height_mm * c.grid.cell_aspect;
+  e.cells = static_cast<std::size_t>(std::ceil(panel.length_mm / e.cell_length_mm) *
+                                     std::ceil(panel.initial_thickness_mm / e.cell_height_mm));
+  e.time_step_s = c.mpm.courant * transit_time(panel, e.cell_length_mm, e.cell_height_mm);
+  const double travel_mm = panel.initial_thickness_mm * c.schedule.compactions.back();
+  e.pressing_time_s = travel_mm / (1e3 * c.schedule.speed_m_s) / (1 - c.schedule.ramp_time_fraction / 2);
+  e.steps = std::ceil(e.pressing_time_s / e.time_step_s);
+
+  const auto n = static_cast<double>(e.particles);
+  const auto states = static_cast<double>(c.schedule.compactions.size());
+  const double speed_up = 1 + kSpeedUpPerThread * (thread_count(c) - 1);
+  e.memory_bytes = n * kBytesPerParticle + 5e7;
+  e.disk_bytes = n * kStoredBytesPerParticle * (states + 2) + 1e7;
+  e.press_s = n * e.steps * kNsPerParticleStep * 1e-9 / speed_up;
+  const double element_count = elements(c, panel);
+  e.test_s = states * static_cast<double>(c.test.compliance_t_mm_per_MPa.size()) * element_count *
+             kSolveSecondsPerElement * std::pow(element_count / kElementsAtReference, kSolveExponent - 1);
+  return e;
+}
+
+}  // namespace strandlab::io

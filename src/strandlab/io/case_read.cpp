@@ -1,0 +1,465 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "strandlab/core/error.hpp"
+#include "strandlab/core/nearest.hpp"
+#include "strandlab/io/case.hpp"
+#include "strandlab/io/case_keys.hpp"
+
+namespace strandlab::io {
+namespace {
+
+namespace fs = std::filesystem;
+using Path = std::vector<std::string>;  // of a key, its parts between dots
+
+// A value or a section as it was given, and where.
+struct Given {
+  Path path;
+  const toml::node* node = nullptr;
+  std::string where;  // opens messages: "panel.toml:12", "--set press.speed_m_s=..."
+};
+
+struct Source {
+  toml::table table;
+  std::string name;  // of the file, or "--set ..."
+  bool has_lines = false;
+  fs::path folder;  // relative file names count from here
+};
+
+// ---- Text to tables -------------------------------------------------------------------------------------------------
+
+toml::table parse_toml(const std::string& text, const std::string& source) {
+  try {
+    return toml::parse(text, source);
+  } catch (const toml::parse_error& e) {
+    throw InputError(fmt::format("{}:{}: not valid TOML: {}", source, e.source().begin.line, e.description()));
+  }
+}
+
+// A list of bare words, [a, b], with its words quoted; nothing where it is not one.
+std::optional<std::string> quote_bare_words(const std::string& value) {
+  const auto plain = [](const std::string& text) { return text.find_first_of("\"'[]{}\\,=#") == std::string::npos; };
+  const auto trimmed = [](const std::string& text) {
+    const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+    return first == std::string::npos ? std::string() : text.substr(first, last - first + 1);
+  };
+  if (plain(value)) return fmt::format("\"{}\"", value);
+  if (value.size() < 2 || value.front() != '[' || value.back() != ']') return std::nullopt;
+  std::string list;
+  std::istringstream items(value.substr(1, value.size() - 2));
+  for (std::string item; std::getline(items, item, ',');) {
+    item = trimmed(item);
+    if (item.empty() || !plain(item)) return std::nullopt;
+    list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", item);
+  }
+  return "[" + list + "]";
+}
+
+Source parse_override(const std::string& text) {
+  Source source;
+  source.name = "--set " + text;
+  source.folder = fs::current_path();
+  const auto equals = text.find('=');
+  const bool one_line = text.find_first_of("\n\r") == std::string::npos;
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size() || !one_line) {
+    throw InputError(fmt::format("{}: expected key.path=value, as in --set press.speed_m_s=8", source.name));
+  }
+  const auto key = text.substr(0, equals), value = text.substr(equals + 1);
+  try {
+    source.table = toml::parse(key + " = " + value);
+    return source;
+  } catch (const toml::parse_error&) {
+    // A word without quotes is not TOML; the shell eats quotes, so it is accepted here.
+  }
+  const auto words = quote_bare_words(value);
+  try {
+    if (words) {
+      source.table = toml::parse(key + " = " + *words);
+      return source;
+    }
+  } catch (const toml::parse_error&) {
+    // Then the key itself is malformed.
+  }
+  throw InputError(
+      fmt::format("{}: expected key.path=value with a TOML value or a bare word, as in "
+                  "--set press.compactions=[0,0.2]",
+                  source.name));
+}
+
+// ---- Tables to keys -------------------------------------------------------------------------------------------------
+
+Path split(const std::string& dotted) {
+  Path parts;
+  std::istringstream stream(dotted);
+  for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
+  return parts;
+}
+
+bool fits(const Path& pattern, const Path& path) {
+  return pattern.size() == path.size() && std::equal(pattern.begin(), pattern.end(), path.begin(),
+                                                     [](const auto& a, const auto& b) { return a == "*" || a == b; });
+}
+
+const Key* find_key(const Path& path) {
+  const auto it = std::find_if(keys().begin(), keys().end(), [&](const Key& k) { return fits(split(k.path), path); });
+  return it == keys().end() ? nullptr : &*it;
+}
+
+// The name that stands for the * of the key's path.
+std::string instance_of(const Path& path) {
+  return path.size() == 3 ? path[1] : std::string();
+}
+
+bool is_section(const Path& path) {
+  return std::any_of(sections().begin(), sections().end(), [&](const Section& s) {
+    const auto pattern = split(s.path);
+    return fits(pattern, path) || (pattern.size() == 2 && path.size() == 1 && pattern[0] == path[0]);
+  });
+}
+
+// Ends a sentence about an unknown name.
+std::string did_you_mean(const std::string& given, const std::vector<std::string>& known) {
+  const auto near = nearest(given, known);
+  return near.empty() ? "." : fmt::format("; did you mean {}?", near);
+}
+
+[[noreturn]] void throw_unknown_section(const Given& given) {
+  std::vector<std::string> known;
+  for (const auto& s : sections()) known.push_back(split(s.path)[0]);
+  const auto name = fmt::format("{}", fmt::join(given.path, "."));
+  throw InputError(fmt::format("{}: unknown section [{}]{} Sections: {}", given.where, name,
+                               did_you_mean(given.path[0], known), fmt::join(known, ", ")));
+}
+
+// The nearest key of the same section, else the same name in another section, else the nearest of all.
+std::string nearest_key(const Path& path, const std::vector<std::string>& same_section) {
+  if (const auto near = nearest(path.back(), same_section); !near.empty())
+    return did_you_mean(path.back(), same_section);
+  std::vector<std::string> everywhere;
+  for (const auto& key : keys()) {
+    if (name_of(key) == path.back()) return fmt::format("; did you mean {}?", key.path);
+    everywhere.push_back(key.path);
+  }
+  return did_you_mean(fmt::format("{}", fmt::join(path, ".")), everywhere);
+}
+
+[[noreturn]] void throw_unknown_key(const Given& given) {
+  const auto name = fmt::format("{}", fmt::join(given.path, "."));
+  const Path section(given.path.begin(), given.path.end() - 1);
+  if (is_section(given.path)) {
+    throw InputError(fmt::format("{}: {} is a section: its keys follow a line [{}]", given.where, name, name));
+  }
+  std::vector<std::string> here;
+  for (const auto& key : keys()) {
+    if (fits(split(section_of(key)), section)) here.push_back(name_of(key));
+  }
+  if (here.empty() && !section.empty()) throw_unknown_section({section, nullptr, given.where});
+  std::string known = "Sections:";
+  for (const auto& s : sections()) known += " [" + s.path + "]";
+  if (!here.empty()) known = fmt::format("Keys of [{}]: {}", fmt::join(section, "."), fmt::join(here, ", "));
+  throw InputError(fmt::format("{}: unknown key {}{} {}", given.where, name, nearest_key(given.path, here), known));
+}
+
+void flatten(const Source& source, const toml::table& table, const Path& prefix, std::vector<Given>& out) {
+  for (auto&& [key, node] : table) {
+    Given given{prefix, &node, source.name};
+    given.path.emplace_back(key.str());
+    if (source.has_lines) given.where += fmt::format(":{}", node.source().begin.line);
+    const bool known = find_key(given.path) != nullptr;
+    if (known || !node.is_table()) {
+      if (!known) throw_unknown_key(given);
+      out.push_back(std::move(given));
+      continue;
+    }
+    if (!is_section(given.path)) throw_unknown_section(given);
+    if (given.path.size() == 2) out.push_back({given.path, nullptr, given.where});
+    flatten(source, *node.as_table(), given.path, out);
+  }
+}
+
+// ---- Values ---------------------------------------------------------------------------------------------------------
+
+std::string type_of(const toml::node& node) {
+  if (node.is_table()) return "a table";
+  if (node.is_array()) return "a list";
+  if (node.is_string()) return "a text";
+  if (node.is_integer()) return "a whole number";
+  if (node.is_floating_point()) return "a number";
+  if (node.is_boolean()) return "true or false";
+  return "a date or time";
+}
+
+// A value as the user may have written it, on one line.
+std::string as_given(const toml::node& node) {
+  if (const auto* array = node.as_array()) {
+    std::vector<std::string> items;
+    for (const auto& item : *array) items.push_back(as_given(item));
+    return fmt::format("[{}]", fmt::join(items, ", "));
+  }
+  if (const auto* text = node.as_string()) return fmt::format("\"{}\"", text->get());
+  if (const auto* real = node.as_floating_point()) return fmt::format("{}", real->get());
+  std::ostringstream text;
+  node.visit([&](const auto& n) { text << n; });
+  return text.str();
+}
+
+std::optional<double> number(const toml::node& node) {
+  if (!node.is_integer() && !node.is_floating_point()) return std::nullopt;
+  return node.value<double>();
+}
+
+// The node as a value of the same type as `like`; nothing where the types differ.
+std::optional<Value> convert(const toml::node& node, const Value& like) {
+  if (std::holds_alternative<bool>(like) && node.is_boolean()) return Value(node.value_or(false));
+  if (std::holds_alternative<std::int64_t>(like) && node.is_integer()) return Value(*node.value<std::int64_t>());
+  if (std::holds_alternative<std::string>(like) && node.is_string()) return Value(*node.value<std::string>());
+  if (std::holds_alternative<double>(like)) {
+    const auto v = number(node);
+    return v ? std::optional<Value>(*v) : std::nullopt;
+  }
+  const auto* array = node.as_array();
+  if (!array) return std::nullopt;
+  if (std::holds_alternative<std::vector<double>>(like)) {
+    std::vector<double> list;
+    for (const auto& item : *array) {
+      const auto v = number(item);
+      if (!v) return std::nullopt;
+      list.push_back(*v);
+    }
+    return list;
+  }
+  if (!std::holds_alternative<std::vector<std::string>>(like)) return std::nullopt;
+  std::vector<std::string> list;
+  for (const auto& item : *array) {
+    if (!item.is_string()) return std::nullopt;
+    list.push_back(*item.value<std::string>());
+  }
+  return list;
+}
+
+bool inside(const Range& r, double v) {
+  if (std::isnan(v)) return false;
+  if (std::isinf(v)) return r.infinite && v > 0;
+  return (r.lo_open ? v > r.lo : v >= r.lo) && (r.hi_open ? v < r.hi : v <= r.hi);
+}
+
+std::vector<double> numbers_of(const Value& value) {
+  if (const auto* i = std::get_if<std::int64_t>(&value)) return {static_cast<double>(*i)};
+  if (const auto* d = std::get_if<double>(&value)) return {*d};
+  if (const auto* list = std::get_if<std::vector<double>>(&value)) return *list;
+  return {};
+}
+
+std::vector<std::string> texts_of(const Value& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return {*text};
+  if (const auto* list = std::get_if<std::vector<std::string>>(&value)) return *list;
+  return {};
+}
+
+bool empty_list(const Value& value) {
+  const auto* numbers = std::get_if<std::vector<double>>(&value);
+  const auto* texts = std::get_if<std::vector<std::string>>(&value);
+  return (numbers && numbers->empty()) || (texts && texts->empty());
+}
+
+void check_value(const Key& key, const Case& c, const Value& value, const std::string& opening) {
+  if (empty_list(value)) throw InputError(opening + ": the list must not be empty");
+  const auto numbers = numbers_of(value);
+  const auto rule = allowed(key, c);
+  for (const double v : numbers) {
+    if (!inside(key.range, v)) {
+      throw InputError(fmt::format("{}: must be {}", opening, rule.empty() ? "a finite number" : rule));
+    }
+  }
+  if (key.range.increasing &&
+      std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>()) != numbers.end()) {
+    throw InputError(fmt::format("{}: must be {}", opening, rule));
+  }
+  if (!key.choices) return;
+  const auto known = key.choices(c);
+  for (const auto& text : texts_of(value)) {
+    if (std::find(known.begin(), known.end(), text) != known.end()) continue;
+    throw InputError(fmt::format("{}: \"{}\" is not {}{}", opening, text, rule, did_you_mean(text, known)));
+  }
+}
+
+void apply(Case& c, const Given& given) {
+  const auto* key = find_key(given.path);
+  const auto name = instance_of(given.path);
+  const auto path = fmt::format("{}", fmt::join(given.path, "."));
+  const auto opening =
+      fmt::format("{}: {} = {}{}", given.where, path, as_given(*given.node), key->unit.empty() ? "" : " " + key->unit);
+  const auto like = key->get(c, name);
+  const auto value = convert(*given.node, like);
+  if (!value) {
+    throw InputError(fmt::format("{}: must be {}, this is {}", opening, type_name(like), type_of(*given.node)));
+  }
+  check_value(*key, c, *value, opening);
+  key->set(c, name, *value);
+}
+
+// [kinds.NAME] and [materials.NAME] come to be when they are first mentioned.
+void make_instance(Case& c, const Given& given) {
+  const auto& name = given.path[1];
+  const auto section = given.path[0] + ".*";
+  const bool plain =
+      !name.empty() &&
+      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
+  if (!plain) {
+    throw InputError(
+        fmt::format("{}: [{}.{}]: a name is made of letters, digits, _ and -", given.where, given.path[0], name));
+  }
+  const auto existing = instances(c, section);
+  if (std::find(existing.begin(), existing.end(), name) != existing.end()) return;
+  if (section == "kinds.*") {
+    KindSettings kind;
+    kind.name = name;
+    c.kinds.push_back(kind);
+    return;
+  }
+  for (const auto& built_in : wood::library()) {
+    if (built_in.name == name) {
+      throw InputError(
+          fmt::format("{}: [materials.{}]: a built-in material has this name, choose another", given.where, name));
+    }
+  }
+  MaterialSettings settings;
+  settings.material = wood::library().front();
+  settings.base = settings.material.name;
+  settings.material.name = name;
+  c.materials.push_back(settings);
+}
+
+// ---- Rules between keys ---------------------------------------------------------------------------------------------
+
+// Where a key, or else anything of its section, was given last; the source itself for defaults.
+std::string where_of(const std::vector<Given>& given, const std::string& source, const Path& path) {
+  std::string where = source;
+  for (const auto& g : given) {
+    const bool same_section =
+        g.path.size() >= path.size() - 1 && std::equal(path.begin(), path.end() - 1, g.path.begin());
+    if (same_section && where == source) where = g.where;
+  }
+  for (const auto& g : given) {
+    if (g.path == path) where = g.where;
+  }
+  return where;
+}
+
+void check_kind(const KindSettings& kind, const std::vector<Given>& given, const std::string& source) {
+  const auto& s = kind.statistics;
+  const auto fail = [&](const char* key, const std::string& message) {
+    throw InputError(
+        fmt::format("{}: kinds.{}.{} {}", where_of(given, source, {"kinds", kind.name, key}), kind.name, key, message));
+  };
+  if (s.length_sd_mm > s.length_mm) {
+    fail("length_sd_mm",
+         fmt::format("= {} mm: must not exceed the mean, length_mm = {}: the truncated normal distribution "
+                     "degenerates",
+                     s.length_sd_mm, s.length_mm));
+  }
+  if (s.gap_sd_mm > s.gap_mm) {
+    fail("gap_sd_mm",
+         fmt::format("= {} mm: must not exceed the mean, gap_mm = {}: the truncated normal distribution degenerates",
+                     s.gap_sd_mm, s.gap_mm));
+  }
+  if (s.length_mm == 0 && s.gap_mm > 0) {
+    fail("length_mm",
+         fmt::format("= 0 means that one strand fills the row, so gap_mm must be 0 too, not {}", s.gap_mm));
+  }
+}
+
+void check_case(const Case& c, const std::vector<Given>& given, const std::string& source) {
+  for (const auto& kind : c.kinds) check_kind(kind, given, source);
+  for (const auto& settings : c.materials) {
+    const auto& name = settings.material.name;
+    try {
+      wood::validate(settings.material);
+    } catch (const InputError& e) {
+      throw InputError(
+          fmt::format("{}: [materials.{}]: {}", where_of(given, source, {"materials", name, ""}), name, e.what()));
+    }
+  }
+  try {
+    layup(c);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}: mat.rows: {}", where_of(given, source, {"mat", "rows"}), e.what()));
+  }
+}
+
+// Base materials before their constants, materials before the kinds that name them.
+int order_of(const Given& given) {
+  if (given.path[0] != "materials") return 2;
+  return given.path.back() == "base" ? 0 : 1;
+}
+
+Case case_from_sources(Case c, const std::vector<Source>& sources) {
+  std::vector<Given> given;
+  std::vector<fs::path> mat_folder(1);
+  for (const auto& source : sources) {
+    const auto first = given.size();
+    flatten(source, source.table, {}, given);
+    for (auto i = first; i < given.size(); ++i) {
+      if (given[i].path == Path{"mat", "file"}) mat_folder[0] = source.folder;
+    }
+  }
+  for (const auto& g : given) {
+    if (!g.node) make_instance(c, g);
+  }
+  std::erase_if(given, [](const Given& g) { return !g.node; });
+  auto ordered = given;
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
+  for (const auto& g : ordered) apply(c, g);
+  if (!c.mat_file.empty()) c.mat_file = fs::absolute(mat_folder[0] / c.mat_file).lexically_normal().string();
+  check_case(c, given, sources.front().name);
+  return c;
+}
+
+std::vector<Source> with_overrides(Source file, const std::vector<std::string>& overrides) {
+  std::vector<Source> sources;
+  sources.push_back(std::move(file));
+  for (const auto& text : overrides) sources.push_back(parse_override(text));
+  return sources;
+}
+
+std::string read_text(const fs::path& file) {
+  std::error_code error;
+  const auto status = fs::status(file, error);
+  if (!fs::exists(status)) {
+    const auto stem = file.stem().string();
+    const auto& ready = ready_cases();
+    const bool known = std::find(ready.begin(), ready.end(), stem) != ready.end();
+    throw InputError(fmt::format("{}: no such case file; to make one: strandlab init {} > {}", file.string(),
+                                 known ? stem : "osb", known ? stem + ".toml" : file.string()));
+  }
+  if (fs::is_directory(status)) throw InputError(fmt::format("{}: this is a folder, not a case file", file.string()));
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw InputError(fmt::format("{}: the case file cannot be read", file.string()));
+  return text.str();
+}
+
+}  // namespace
+
+Case read_case(const fs::path& file, const std::vector<std::string>& overrides) {
+  Source source{parse_toml(read_text(file), file.string()), file.string(), true, fs::absolute(file).parent_path()};
+  Case c;
+  c.name = file.stem().string();
+  return case_from_sources(std::move(c), with_overrides(std::move(source), overrides));
+}
+
+Case case_from_text(const std::string& text, const std::string& source, const std::vector<std::string>& overrides) {
+  return case_from_sources(Case(),
+                           with_overrides({parse_toml(text, source), source, true, fs::current_path()}, overrides));
+}
+
+}  // namespace strandlab::io

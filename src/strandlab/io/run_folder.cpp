@@ -1,0 +1,245 @@
+#include "strandlab/io/run_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include "strandlab/core/error.hpp"
+#include "strandlab/core/version.hpp"
+#include "strandlab/io/atomic_file.hpp"
+
+namespace strandlab::io {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr std::array kSteps{Step::kMat, Step::kPress, Step::kTest};
+
+const char* name_of_step(Step step) {
+  static constexpr std::array names{"mat", "press", "test"};
+  return names[static_cast<std::size_t>(step)];
+}
+
+// Files and folders that a step leaves.
+std::vector<std::string> results_of(Step step) {
+  if (step == Step::kMat) return {"mat.json"};
+  if (step == Step::kPress) {
+    return {"press.csv", "morphology.csv", "histograms.csv", "checkpoint.h5", "checkpoint.previous.h5",
+            "panels",    "paraview",       "pictures"};
+  }
+  return {"moduli.csv", "plots"};
+}
+
+bool is_temporary(const fs::path& file) {
+  return file.extension() == ".tmp";
+}
+
+// The nearest folder above that exists: where a new folder would be made.
+fs::path existing_part(fs::path folder) {
+  std::error_code error;
+  while (!folder.empty() && !fs::exists(folder, error) && folder != folder.parent_path()) folder = folder.parent_path();
+  return folder;
+}
+
+void refuse_unwritable(const fs::path& folder, double needed_bytes) {
+  const auto existing = existing_part(fs::absolute(folder));
+  if (!fs::is_directory(existing)) {
+    throw InputError(
+        fmt::format("{}: cannot make this run folder: {} is not a folder", folder.string(), existing.string()));
+  }
+  if (::access(existing.c_str(), W_OK | X_OK) != 0) {
+    throw InputError(fmt::format("{}: cannot write to {}: {}; choose another run folder with -o", folder.string(),
+                                 existing.string(), std::strerror(errno)));
+  }
+  std::error_code error;
+  const auto space = fs::space(existing, error);
+  if (!error && static_cast<double>(space.available) < needed_bytes) {
+    throw InputError(fmt::format("{}: the run needs about {:.0f} MB of disk space, {:.0f} MB are free", folder.string(),
+                                 needed_bytes / 1e6, static_cast<double>(space.available) / 1e6));
+  }
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw InputError(
+        fmt::format("{}: cannot make this run folder: {}; choose another with -o", folder.string(), error.message()));
+  }
+}
+
+// Holds as long as the descriptor is open, also over a kill -9.
+int lock_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+  const int reason = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (reason == EWOULDBLOCK)
+    throw InputError(fmt::format("{}: another strandlab is running in this folder", folder.string()));
+  throw InputError(fmt::format("{}: cannot open this run folder: {}", folder.string(), std::strerror(reason)));
+}
+
+Json read_record(const fs::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw InputError(fmt::format("{}: cannot be read", file.string()));
+  auto record = Json::parse(stream, nullptr, false);
+  const bool ours = record.is_object() && record.contains("strandlab") && record.contains("case") &&
+                    record["case"].is_array() && record.contains("steps") && record["steps"].is_object();
+  if (!ours)
+    throw InputError(
+        fmt::format("{}: not the record of a strandlab run; choose another folder with -o", file.string()));
+  return record;
+}
+
+std::vector<std::string> all_lines(const Case& c) {
+  return identity(c, Step::kTest);
+}
+
+// First lines in which two cases differ, up to three: "press.speed_m_s = 8 there, 16 here".
+std::string differences(const std::vector<std::string>& there, const std::vector<std::string>& here) {
+  std::vector<std::string> list;
+  const auto key = [](const std::string& line) { return line.substr(0, line.find(" = ")); };
+  const auto value = [](const std::string& line) { return line.substr(line.find(" = ") + 3); };
+  for (const auto& line : here) {
+    const auto same_key =
+        std::find_if(there.begin(), there.end(), [&](const auto& other) { return key(other) == key(line); });
+    if (same_key == there.end())
+      list.push_back(fmt::format("{} only here", key(line)));
+    else if (*same_key != line)
+      list.push_back(fmt::format("{} = {} there, {} here", key(line), value(*same_key), value(line)));
+  }
+  for (const auto& line : there) {
+    const bool known =
+        std::any_of(here.begin(), here.end(), [&](const auto& other) { return key(other) == key(line); });
+    if (!known) list.push_back(fmt::format("{} only there", key(line)));
+  }
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, list.size()); ++i) text += (i ? "; " : "") + list[i];
+  return list.size() > 3 ? text + fmt::format("; and {} more", list.size() - 3) : text;
+}
+
+// First step whose identity lines are not those of the record.
+Step first_changed(const std::vector<std::string>& recorded, const Case& c) {
+  for (const auto step : kSteps) {
+    for (const auto& line : identity(c, step)) {
+      if (std::find(recorded.begin(), recorded.end(), line) == recorded.end()) return step;
+    }
+  }
+  // Lines were only taken away: a kind or a material of the mat.
+  return Step::kMat;
+}
+
+}  // namespace
+
+RunFolder::RunFolder(fs::path folder, const Case& c, Step first, bool force, double needed_bytes)
+    : folder_(std::move(folder)) {
+  refuse_unwritable(folder_, needed_bytes);
+  refuse_foreign_folder();
+  const bool exists = fs::exists(file("run.json"));
+  if (exists) record_ = read_record(file("run.json"));
+  if (exists && !force) refuse_other_case(c);
+  make_folder(folder_);
+  lock_ = lock_folder(folder_);
+  if (exists && force) {
+    const auto recorded = record_["case"].get<std::vector<std::string>>();
+    forget_steps(recorded == all_lines(c) ? first : std::min(first, first_changed(recorded, c)));
+  }
+  if (!exists) record_ = {{"steps", Json::object()}};
+  write_case(c);
+  remove_leftovers();
+}
+
+RunFolder::~RunFolder() {
+  if (lock_ >= 0) ::close(lock_);
+}
+
+RunFolder::RunFolder(RunFolder&& other) noexcept
+    : folder_(std::move(other.folder_)), record_(std::move(other.record_)), lock_(std::exchange(other.lock_, -1)) {}
+
+fs::path RunFolder::panel_file(double compaction) const {
+  return folder_ / "panels" / fmt::format("panel_{}.h5", compaction);
+}
+fs::path RunFolder::paraview_file(double compaction) const {
+  return folder_ / "paraview" / fmt::format("panel_{}.vtu", compaction);
+}
+fs::path RunFolder::picture_file(const std::string& what, double compaction) const {
+  return folder_ / "pictures" / fmt::format("{}_{}.png", what, compaction);
+}
+
+Json& RunFolder::record(Step step) {
+  return record_["steps"][name_of_step(step)];
+}
+
+void RunFolder::save() const {
+  write_atomically(file("run.json"), record_.dump(2) + "\n");
+}
+
+bool RunFolder::finished(Step step) const {
+  const auto& steps = record_.at("steps");
+  const auto found = steps.find(name_of_step(step));
+  return found != steps.end() && found->value("finished", false);
+}
+
+void RunFolder::set_finished(Step step) {
+  record(step)["finished"] = true;
+  save();
+}
+
+// A folder with files but without run.json is not ours, whatever --force says.
+void RunFolder::refuse_foreign_folder() const {
+  std::error_code error;
+  if (!fs::is_directory(folder_, error) || fs::exists(file("run.json"), error)) return;
+  for (const auto& entry : fs::directory_iterator(folder_, error)) {
+    if (!is_temporary(entry.path())) {
+      throw InputError(
+          fmt::format("{}: this folder holds files but no strandlab run (no run.json); choose an empty or a new one "
+                      "with -o",
+                      folder_.string()));
+    }
+  }
+  if (error) throw InputError(fmt::format("{}: cannot read this folder: {}", folder_.string(), error.message()));
+}
+
+void RunFolder::refuse_other_case(const Case& c) const {
+  const auto recorded = record_["case"].get<std::vector<std::string>>();
+  const auto here = all_lines(c);
+  if (recorded == here) return;
+  throw InputError(
+      fmt::format("{}: this run folder holds the results of another case ({}); choose another folder with -o, or "
+                  "--force to replace what differs",
+                  folder_.string(), differences(recorded, here)));
+}
+
+void RunFolder::forget_steps(Step first) {
+  for (const auto step : kSteps) {
+    if (step >= first) record_["steps"].erase(name_of_step(step));
+  }
+}
+
+// Files of steps that the record does not know: from before --force. The record is saved first, so that a kill in
+// between leaves no result without its case.
+void RunFolder::remove_leftovers() const {
+  for (const auto step : kSteps) {
+    if (record_["steps"].contains(name_of_step(step))) continue;
+    for (const auto& name : results_of(step)) fs::remove_all(file(name));
+  }
+}
+
+void RunFolder::write_case(const Case& c) {
+  record_["strandlab"] = version();
+  record_["case_name"] = c.name;
+  record_["case"] = all_lines(c);
+  save();
+  write_atomically(file("case.toml"), resolved_text(c));
+}
+
+}  // namespace strandlab::io

@@ -1,0 +1,53 @@
+// The folder of a run: its files, which steps of the journey are done, and whose results they are.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "strandlab/io/case.hpp"
+#include "strandlab/io/case_write.hpp"
+
+namespace strandlab::io {
+
+class RunFolder {
+ public:
+  // Opens the folder of a case, made where it is missing; with `force` the steps from `first` on, or from the first
+  // that another case changes, start again. Results of the same case are kept and built upon. Throws InputError, with
+  // nothing written, for a folder that holds something else or another case's results (without `force`), that may not
+  // be written, has less than `needed_bytes` of space, or is in use by another run.
+  RunFolder(std::filesystem::path folder, const Case& c, Step first, bool force, double needed_bytes);
+  ~RunFolder();
+  RunFolder(RunFolder&& other) noexcept;
+  RunFolder& operator=(RunFolder&&) = delete;
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  const std::filesystem::path& path() const { return folder_; }
+  std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+  // File of the panel at a compaction: "panels/panel_0.1.h5", "paraview/panel_0.1.vtu", "pictures/grain_angle_0.1.png".
+  std::filesystem::path panel_file(double compaction) const;
+  std::filesystem::path paraview_file(double compaction) const;
+  std::filesystem::path picture_file(const std::string& what, double compaction) const;
+
+  // run.json: what is known of the run; save() replaces the file atomically.
+  nlohmann::json& record() { return record_; }
+  nlohmann::json& record(Step step);
+  void save() const;
+
+  bool finished(Step step) const;
+  void set_finished(Step step);
+
+ private:
+  void refuse_foreign_folder() const;
+  void refuse_other_case(const Case& c) const;
+  void forget_steps(Step first);
+  void remove_leftovers() const;
+  void write_case(const Case& c);
+
+  std::filesystem::path folder_;
+  nlohmann::json record_;
+  int lock_ = -1;  // descriptor of the locked folder
+};
+
+}  // namespace strandlab::io
