@@ -7,15 +7,12 @@
 
 namespace strandlab::io {
 
-// Writes `file` through a temporary file in the same folder ("<file>.tmp"): `fill` writes the temporary, which is then
-// synced to disk and renamed over `file`. Whatever happens before the rename leaves `file` as it was; a leftover
-// temporary file of a killed run is overwritten. Throws InputError where the folder does not exist or may not be
-// written, RunError when the disk is full or fails; what `fill` throws passes through, and the temporary file is
-// removed.
-void replace_atomically(const std::filesystem::path& file,
-                        const std::function<void(const std::filesystem::path& temporary)>& fill);
-
-// The same for text or bytes in memory.
-void write_atomically(const std::filesystem::path& file, std::string_view bytes);
+// Writes `file` through a temporary file in the same folder ("<file>.tmp") that is synced to disk and renamed over
+// `file`. Whatever happens before the rename leaves `file` as it was; a leftover temporary file of a killed run is
+// overwritten. `before_rename`, where given, is called when the new file is safe on disk under its temporary name.
+// Throws InputError where the folder does not exist or may not be written, RunError when the disk is full or fails;
+// what `before_rename` throws passes through. The temporary file is then removed.
+void write_atomically(const std::filesystem::path& file, std::string_view bytes,
+                      const std::function<void()>& before_rename = nullptr);
 
 }  // namespace strandlab::io

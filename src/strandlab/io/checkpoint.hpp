@@ -48,6 +48,7 @@ class CheckpointStore {
   std::optional<press::Checkpoint<Dim>> load(std::vector<std::string>* warnings) const;
 
  private:
+  void keep_newest() const;
   std::filesystem::path folder_;
   std::string case_hash_;
 };
