@@ -34,7 +34,9 @@ struct Face {
   }
 };
 
-double cross(const Vec<2>& a, const Vec<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
+double cross(const Vec<2>& a, const Vec<2>& b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
 
 Face make_face(const Strand<2>& strand, Side side) {
   const auto lattice = corners(strand);
@@ -57,15 +59,17 @@ Face make_face(const Strand<2>& strand, Side side) {
 
 // The two faces that may be glued and how far apart: gap within (lowest, highest).
 struct Pair {
-  const Face& a;  // a top face
-  const Face& b;  // a bottom face above it
+  const Face& a;           // a top face
+  const Face& b;           // a bottom face above it
   double lowest, highest;  // mm
 };
 
 // Where the normal of face a at s meets face b, as a place on b; nothing if it passes b's ends.
 std::optional<double> meet(const Face& a, double s, const Face& b) {
   const Vec<2> p = a.position(s), n = a.normal_at(s);
-  const auto side = [&](int corner) { return cross(n, b.corner[corner] - p); };  // falls along b, which lies to the right of n
+  const auto side = [&](int corner) {
+    return cross(n, b.corner[corner] - p);
+  };  // falls along b, which lies to the right of n
   int low = 0, high = b.segments();
   if (side(low) < 0 || side(high) > 0) return std::nullopt;
   while (high - low > 1) {
@@ -96,7 +100,8 @@ double last_glued(const Pair& pair, double inside, double outside) {
   return inside;
 }
 
-// Stretches [first, second] of face a that are glued to face b. Sampled at every corner and halfway between, ends bisected.
+// Stretches [first, second] of face a that are glued to face b. Sampled at every corner and halfway between, ends
+// bisected.
 std::vector<std::pair<double, double>> contact_stretches(const Pair& pair) {
   std::vector<std::pair<double, double>> stretches;
   const int samples = 2 * pair.a.segments();
@@ -124,8 +129,8 @@ FacePoint<2> face_point(const Face& face, int strand, Side side, double s) {
 
 struct Line {
   int strand_a, strand_b;
-  int intervals;        // between glue points
-  double first, last;   // the stretch, on face a
+  int intervals;       // between glue points
+  double first, last;  // the stretch, on face a
 };
 
 void append_points(const Pair& pair, const Line& line, std::vector<GluePoint<2>>& points) {
@@ -139,7 +144,8 @@ void append_points(const Pair& pair, const Line& line, std::vector<GluePoint<2>>
     point.b = face_point(pair.b, line.strand_b, Side::kBottom, *other);
     point.normal = (pair.a.normal_at(s) - pair.b.normal_at(*other)).normalized();
     point.gap = (point.b.position - point.a.position).dot(point.normal);
-    point.area = pair.a.arc_at(std::min(s + 0.5 * step, line.last)) - pair.a.arc_at(std::max(s - 0.5 * step, line.first));
+    point.area =
+        pair.a.arc_at(std::min(s + 0.5 * step, line.last)) - pair.a.arc_at(std::max(s - 0.5 * step, line.first));
     points.push_back(point);
   }
 }
@@ -161,15 +167,18 @@ bool near(const Box& a, const Box& b, double distance) {
   return ((a.low - b.high).array() < distance).all() && ((b.low - a.high).array() < distance).all();
 }
 
-double formed_thickness(const Strand<2>& strand) { return strand.points[1] * strand.spacing[1]; }
+double formed_thickness(const Strand<2>& strand) {
+  return strand.points[1] * strand.spacing[1];
+}
 
 void check(const CuringOptions& options) {
   if (!(options.max_gap_mm > 0) || !std::isfinite(options.max_gap_mm)) {
     throw InputError(fmt::format("curing gap of {} mm: it must be positive", options.max_gap_mm));
   }
   if (!(options.point_spacing_mm >= 0) || !std::isfinite(options.point_spacing_mm)) {
-    throw InputError(fmt::format("spacing of glue points of {} mm: it must be positive, or 0 for that of the material points",
-                                 options.point_spacing_mm));
+    throw InputError(
+        fmt::format("spacing of glue points of {} mm: it must be positive, or 0 for that of the material points",
+                    options.point_spacing_mm));
   }
 }
 
@@ -198,7 +207,7 @@ std::vector<GluePoint<2>> cure(const Panel<2>& panel, const CuringOptions& optio
       for (const auto& [first, last] : contact_stretches(pair)) {
         const double on_b = std::abs(*glued(pair, last) - *glued(pair, first)) * upper.spacing[0];
         const double length = 0.5 * ((last - first) * lower.spacing[0] + on_b);  // as formed
-        if (length < 1e-3 * spacing) continue;  // a touch, not a line
+        if (length < 1e-3 * spacing) continue;                                   // a touch, not a line
         append_points(pair, {a, b, std::max(1, static_cast<int>(std::lround(length / spacing))), first, last}, points);
       }
     }

@@ -35,16 +35,16 @@ struct CuringOptions {
   double point_spacing_mm = 0;  // along the strand as formed, between glue points; 0: as the material points
 };
 
-// Glue points of a pressed panel. A face point is glued to the facing strand where its projection along its face's normal
-// falls on that face within max_gap_mm. A stretch of contact ends where a strand ends or where the gap opens; its points
-// divide it evenly, both ends included, so that glue lines change continuously with the strands. One constraint per point,
-// no more points than face corners, and normals interpolated from the corners' mean normals: a perfect bond does not lock.
-// Strand ends do not bond. Deterministic order: by strand (of its top face), then by facing strand, then along the face.
-// Throws InputError for a gap that is not positive or a negative spacing.
+// Glue points of a pressed panel. A face point is glued to the facing strand where its projection along its face's
+// normal falls on that face within max_gap_mm. A stretch of contact ends where a strand ends or where the gap opens;
+// its points divide it evenly, both ends included, so that glue lines change continuously with the strands. One
+// constraint per point, no more points than face corners, and normals interpolated from the corners' mean normals: a
+// perfect bond does not lock. Strand ends do not bond. Deterministic order: by strand (of its top face), then by facing
+// strand, then along the face. Throws InputError for a gap that is not positive or a negative spacing.
 std::vector<GluePoint<2>> cure(const Panel<2>& panel, const CuringOptions& options);
 
-// Length of strand faces (mm) that could be glued: top faces but those of the top row, bottom faces but those of the bottom
-// row. A panel without gaps has a glued length of half of this.
+// Length of strand faces (mm) that could be glued: top faces but those of the top row, bottom faces but those of the
+// bottom row. A panel without gaps has a glued length of half of this.
 double facing_length(const Panel<2>& panel);
 
 }  // namespace strandlab::glue

@@ -61,7 +61,7 @@ std::vector<double> multiply(const LowerMatrix& a, const std::vector<double>& x)
 struct Cholesky::Impl {
   cholmod_common common{};
   cholmod_factor* factor = nullptr;
-  cholmod_dense* solution = nullptr;        // reused by cholmod_solve2
+  cholmod_dense* solution = nullptr;  // reused by cholmod_solve2
   cholmod_dense *work_y = nullptr, *work_e = nullptr;
 
   Impl() {
@@ -118,7 +118,8 @@ void Cholesky::factorise(const LowerMatrix& matrix) {
   }
 }
 
-std::vector<std::vector<double>> Cholesky::solve(const LowerMatrix& matrix, const std::vector<std::vector<double>>& rhs) {
+std::vector<std::vector<double>> Cholesky::solve(const LowerMatrix& matrix,
+                                                 const std::vector<std::vector<double>>& rhs) {
   std::vector<std::vector<double>> solutions;
   for (const auto& b : rhs) {
     std::vector<double> x(b.size(), 0.0);
@@ -137,6 +138,8 @@ std::vector<std::vector<double>> Cholesky::solve(const LowerMatrix& matrix, cons
   return solutions;
 }
 
-double Cholesky::factor_entries() const { return impl_->common.lnz; }
+double Cholesky::factor_entries() const {
+  return impl_->common.lnz;
+}
 
 }  // namespace strandlab::statics

@@ -25,7 +25,8 @@ class Cholesky {
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;
 
-  // Factorises a matrix with the pattern that was analysed. Throws RunError when it is not positive definite or memory runs out.
+  // Factorises a matrix with the pattern that was analysed. Throws RunError when it is not positive definite or memory
+  // runs out.
   void factorise(const LowerMatrix& matrix);
 
   // Solves for one or more right-hand sides with the last factor, refined until the residual stops falling.

@@ -64,7 +64,8 @@ ElementStiffness incompatible_quadrilateral(const std::array<Vec<2>, 4>& corners
       const Tensor<2> jacobian = natural * x;
       const double det = jacobian.determinant();
       if (!(det > 0)) {
-        throw RunError(fmt::format("inverted element at x = {:.3f} mm, y = {:.3f} mm", x.col(0).mean(), x.col(1).mean()));
+        throw RunError(
+            fmt::format("inverted element at x = {:.3f} mm, y = {:.3f} mm", x.col(0).mean(), x.col(1).mean()));
       }
       const Gradients gradient = jacobian.inverse() * natural;
       Eigen::Matrix<double, 3, 12> b;

@@ -22,18 +22,20 @@ struct StrandMesh {
 
 struct Mesh {
   std::vector<StrandMesh> strands;
-  std::vector<int> mesh_of_strand;            // by strand of the panel, -1 where it has no elements
-  std::vector<Vec<2>> nodes;                  // mm
-  std::vector<std::array<int, 4>> elements;   // nodes, counter-clockwise
-  std::vector<PlaneStiffness> stiffness;      // MPa, by element, panel axes: C0 V0/V_e with the grain of the element's points
+  std::vector<int> mesh_of_strand;           // by strand of the panel, -1 where it has no elements
+  std::vector<Vec<2>> nodes;                 // mm
+  std::vector<std::array<int, 4>> elements;  // nodes, counter-clockwise
+  std::vector<PlaneStiffness>
+      stiffness;  // MPa, by element, panel axes: C0 V0/V_e with the grain of the element's points
   int dofs() const { return 2 * static_cast<int>(nodes.size()); }
 };
 
-// Length along the strand, as formed, that elements are given: that of a cube-shaped element, formed thickness / elements.
+// Length along the strand, as formed, that elements are given: that of a cube-shaped element, formed thickness /
+// elements.
 double element_length(const Panel<2>& panel, int elements_through);
 
-// Mesh of the strands for which keep[strand] holds. Strand ends and faces stay where the corner lattice puts them. Throws RunError
-// for an inverted element.
+// Mesh of the strands for which keep[strand] holds. Strand ends and faces stay where the corner lattice puts them.
+// Throws RunError for an inverted element.
 Mesh make_mesh(const Panel<2>& panel, const std::vector<bool>& keep, int elements_through);
 
 // Where a glue point lies on the mesh: its displacement is (1 - xi) u[first] + xi u[second].

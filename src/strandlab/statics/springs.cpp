@@ -5,9 +5,12 @@ namespace {
 
 using Row = Eigen::Matrix<double, 8, 1>;
 
-Vec<2> rotated(const Vec<2>& v) { return {-v[1], v[0]}; }  // by +90 degrees
+Vec<2> rotated(const Vec<2>& v) {
+  return {-v[1], v[0]};
+}  // by +90 degrees
 
-// Rotation of a face between two nodes: omega = r . (u_2 - u_1)/|d|^2, d from node 1 to 2 and r = d turned by 90 degrees.
+// Rotation of a face between two nodes: omega = r . (u_2 - u_1)/|d|^2, d from node 1 to 2 and r = d turned by 90
+// degrees.
 void add_rotation(const Mesh& mesh, const FaceNodes& face, int first_dof, double factor, Row& row) {
   const Vec<2> d = mesh.nodes[face.second] - mesh.nodes[face.first];
   const Vec<2> r = factor * rotated(d) / d.squaredNorm();

@@ -8,9 +8,10 @@
 
 namespace strandlab::statics {
 
-// One glue point on a mesh: the jump [u] = u_b - u_a along the tangent and the normal as linear forms of eight dofs (u_x, u_y of
-// the two nodes on face a, then of the two on face b). The rotation of the two faces times the distance of the point's two sides is
-// taken off the jump, so that a rigid rotation stretches nothing even where the glue line has a thickness.
+// One glue point on a mesh: the jump [u] = u_b - u_a along the tangent and the normal as linear forms of eight dofs
+// (u_x, u_y of the two nodes on face a, then of the two on face b). The rotation of the two faces times the distance of
+// the point's two sides is taken off the jump, so that a rigid rotation stretches nothing even where the glue line has
+// a thickness.
 struct Spring {
   std::array<int, 4> nodes{};
   Eigen::Matrix<double, 8, 1> tangent, normal;

@@ -70,10 +70,11 @@ void PanelStiffness::make_pattern(const Mesh& mesh) {
   wood_.value.assign(wood_.row.size(), 0.0);
 }
 
-// Index of the value at (u_x of row_node, u_x or u_y of column_node); the u_y row follows. For row = column and the second column
-// it is one before the diagonal.
+// Index of the value at (u_x of row_node, u_x or u_y of column_node); the u_y row follows. For row = column and the
+// second column it is one before the diagonal.
 int PanelStiffness::block_start(int row_node, int column_node, bool second_column) const {
-  const auto begin = node_row_.begin() + node_start_[column_node], end = node_row_.begin() + node_start_[column_node + 1];
+  const auto begin = node_row_.begin() + node_start_[column_node],
+             end = node_row_.begin() + node_start_[column_node + 1];
   const int k = static_cast<int>(std::lower_bound(begin, end, row_node) - begin);
   return wood_.column_start[2 * column_node + (second_column ? 1 : 0)] + 2 * k - (second_column ? 1 : 0);
 }
@@ -129,8 +130,8 @@ LowerMatrix constrained(const LowerMatrix& stiffness, const Supports& supports) 
   return result;
 }
 
-std::vector<double> right_hand_side(const LowerMatrix& stiffness, const Supports& supports, const std::vector<double>& force,
-                                    const std::vector<double>& displacement) {
+std::vector<double> right_hand_side(const LowerMatrix& stiffness, const Supports& supports,
+                                    const std::vector<double>& force, const std::vector<double>& displacement) {
   std::vector<double> given(displacement.size(), 0.0);
   for (std::size_t i = 0; i < given.size(); ++i) given[i] = supports.fixed[i] ? displacement[i] : 0.0;
   auto rhs = multiply(stiffness, given);

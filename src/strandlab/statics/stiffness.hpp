@@ -33,7 +33,8 @@ class PanelStiffness {
   LowerMatrix wood_;                        // value: wood alone
 };
 
-// Supports: dofs whose displacement is given. Rows and columns of such dofs are replaced by a diagonal, which keeps the pattern.
+// Supports: dofs whose displacement is given. Rows and columns of such dofs are replaced by a diagonal, which keeps the
+// pattern.
 struct Supports {
   std::vector<char> fixed;  // by dof
   double diagonal = 1;      // N/mm, of the size of the other diagonal terms
@@ -41,7 +42,7 @@ struct Supports {
 LowerMatrix constrained(const LowerMatrix& stiffness, const Supports& supports);
 
 // Right-hand side of constrained() for the forces (N) on free dofs and the displacements (mm) of fixed ones.
-std::vector<double> right_hand_side(const LowerMatrix& stiffness, const Supports& supports, const std::vector<double>& force,
-                                    const std::vector<double>& displacement);
+std::vector<double> right_hand_side(const LowerMatrix& stiffness, const Supports& supports,
+                                    const std::vector<double>& force, const std::vector<double>& displacement);
 
 }  // namespace strandlab::statics

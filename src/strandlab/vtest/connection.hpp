@@ -12,7 +12,7 @@ struct Connection {
   std::vector<bool> at_left, at_right;  // by strand: its end lies on the end plane x = 0, x = length
   std::vector<int> group;               // by strand: number of its kept group, -1 for a strand that floats
   int groups = 0;
-  int floating = 0;                     // strands
+  int floating = 0;  // strands
 };
 
 Connection connect(const Panel<2>& panel, const std::vector<glue::GluePoint<2>>& points);

@@ -94,7 +94,8 @@ std::vector<double> couple_forces(const Connection& connection, const statics::M
     if (lowest == nullptr || end_height(strand) < end_height(*lowest)) lowest = &strand;
     if (highest == nullptr || end_height(strand) > end_height(*highest)) highest = &strand;
   }
-  if (lowest == highest) throw InputError("bending by an end couple needs two strands at the loaded end, the panel has one");
+  if (lowest == highest)
+    throw InputError("bending by an end couple needs two strands at the loaded end, the panel has one");
   const EndForce below = end_force(mesh, *lowest), above = end_force(mesh, *highest);
   const double force = 1 / (above.height - below.height);
   std::vector<double> forces(2 * mesh.nodes.size(), 0.0);

@@ -32,8 +32,8 @@ struct Resultant {
 };
 Resultant resultant(const Section& section, const std::vector<int>& nodes, const std::vector<double>& forces);
 
-// Nodal forces of a couple of moment 1 N mm: an even axial traction over the end face of the outermost strand on either side that
-// reaches x = length, pulling below and pushing above. Throws InputError if that is one and the same strand.
+// Nodal forces of a couple of moment 1 N mm: an even axial traction over the end face of the outermost strand on either
+// side that reaches x = length, pulling below and pushing above. Throws InputError if that is one and the same strand.
 std::vector<double> couple_forces(const Connection& connection, const statics::Mesh& mesh);
 
 }  // namespace strandlab::vtest

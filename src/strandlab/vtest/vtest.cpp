@@ -37,10 +37,12 @@ void check(const Panel<2>& panel, const Options& options) {
   for (const double c : options.compliance_t_mm_per_MPa) check_number("1/D_t", c);
   check_number("1/D_n", options.compliance_n_mm_per_MPa);
   if (options.elements_through_strand < 1 || options.elements_through_strand > 48) {
-    throw InputError(fmt::format("{} elements through a strand: 1 to 48 are possible", options.elements_through_strand));
+    throw InputError(
+        fmt::format("{} elements through a strand: 1 to 48 are possible", options.elements_through_strand));
   }
   if (!(options.perfect_bond >= 10 && options.perfect_bond <= 1e6)) {
-    throw InputError(fmt::format("a perfect bond of {} times the wood's stiffness: 10 to 1e6 are possible", options.perfect_bond));
+    throw InputError(
+        fmt::format("a perfect bond of {} times the wood's stiffness: 10 to 1e6 are possible", options.perfect_bond));
   }
 }
 
@@ -49,13 +51,16 @@ double glue_stiffness(const char* symbol, double compliance, double perfect, std
   std::string warning;
   double stiffness = compliance > 0 ? std::min(1 / compliance, perfect) : perfect;
   if (compliance < 0) {
-    warning = fmt::format("The glue compliance 1/{} = {} mm/MPa is negative; it is taken as a perfect bond.", symbol, compliance);
+    warning = fmt::format("The glue compliance 1/{} = {} mm/MPa is negative; it is taken as a perfect bond.", symbol,
+                          compliance);
   } else if (stiffness < kSoftestGlue) {
     stiffness = kSoftestGlue;
-    warning = fmt::format("The glue stiffness {} = {:.3g} MPa/mm is raised to {} MPa/mm to keep the panel in one piece.", symbol,
-                          1 / compliance, kSoftestGlue);
+    warning =
+        fmt::format("The glue stiffness {} = {:.3g} MPa/mm is raised to {} MPa/mm to keep the panel in one piece.",
+                    symbol, 1 / compliance, kSoftestGlue);
   }
-  if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+  if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+    warnings.push_back(warning);
   return stiffness;
 }
 
@@ -82,11 +87,12 @@ Model make_model(const Panel<2>& panel, const Options& options, Result& result) 
 
   model.connection = connect(panel, points);
   const auto& group = model.connection.group;
-  if (model.connection.groups == 0) throw InputError("no strands connect the two ends of the panel: there is nothing to test");
+  if (model.connection.groups == 0)
+    throw InputError("no strands connect the two ends of the panel: there is nothing to test");
   result.floating_strands = model.connection.floating;
   if (result.floating_strands > 0) {
-    result.warnings.push_back(
-        fmt::format("{} of {} strands are not glued to both loaded ends and are left out.", result.floating_strands, group.size()));
+    result.warnings.push_back(fmt::format("{} of {} strands are not glued to both loaded ends and are left out.",
+                                          result.floating_strands, group.size()));
   }
   std::erase_if(points, [&](const auto& point) { return group[point.a.strand] < 0; });
 
@@ -173,7 +179,8 @@ bool wants(const Options& options, Kind kind) {
   return std::find(options.kinds.begin(), options.kinds.end(), kind) != options.kinds.end();
 }
 
-std::vector<Modulus> measure_kinds(const Trial& trial, const Options& options, statics::Cholesky& cholesky, Result& result) {
+std::vector<Modulus> measure_kinds(const Trial& trial, const Options& options, statics::Cholesky& cholesky,
+                                   Result& result) {
   const auto& section = trial.model.section;
   const std::vector<double> none(static_cast<std::size_t>(trial.model.mesh.dofs()), 0.0);
   std::optional<Modulus> stretched, rotated, bent;

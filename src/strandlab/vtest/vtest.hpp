@@ -1,4 +1,5 @@
-// Virtual tests of a pressed panel: tension and bending moduli with imperfect glue lines (small strain, linear, static).
+// Virtual tests of a pressed panel: tension and bending moduli with imperfect glue lines (small strain, linear,
+// static).
 #pragma once
 
 #include <string>
@@ -10,7 +11,7 @@
 namespace strandlab::vtest {
 
 enum class Kind { kTension, kBendingEndRotation, kBendingEndCouple };
-const char* name(Kind kind);            // "tension", "bending_end_rotation", "bending_end_couple"
+const char* name(Kind kind);                   // "tension", "bending_end_rotation", "bending_end_couple"
 Kind kind_from_name(const std::string& name);  // throws InputError with the allowed names
 std::string allowed_kinds();                   // those names, comma-separated
 
@@ -19,8 +20,8 @@ struct Options {
   std::vector<double> compliance_t_mm_per_MPa{0.0};  // 1/D_t; negative is taken as perfect, with a warning
   double compliance_n_mm_per_MPa = 0;                // 1/D_n, likewise
   int elements_through_strand = 3;
-  glue::CuringOptions curing;   // point_spacing_mm = 0: as the elements
-  double perfect_bond = 1e3;    // stiffness that stands for a perfect bond, in units of wood stiffness / element length
+  glue::CuringOptions curing;  // point_spacing_mm = 0: as the elements
+  double perfect_bond = 300;   // stiffness that stands for a perfect bond, in units of wood stiffness / element length
 };
 
 struct Modulus {
@@ -31,22 +32,23 @@ struct Modulus {
 };
 
 struct Result {
-  std::vector<Modulus> moduli;        // by kind within compliance
-  int floating_strands = 0;           // not connected to both loaded ends, dropped
-  double glued_fraction = 0;          // glued length over face length of facing rows
+  std::vector<Modulus> moduli;  // by kind within compliance
+  int floating_strands = 0;     // not connected to both loaded ends, dropped
+  double glued_fraction = 0;    // glued length over face length of facing rows
   int unknowns = 0;
   double assemble_s = 0, analyse_s = 0, factor_s = 0, solve_s = 0;  // wall time, all compliances together
-  std::vector<std::string> warnings;  // plain sentences
+  std::vector<std::string> warnings;                                // plain sentences
 };
 
-// Moduli of the panel, frozen as it lies between the platens: small strain, linear, plane strain, material axes as pressed; locked-in
-// stress, geometric stiffness and springback are ignored.
+// Moduli of the panel, frozen as it lies between the platens: small strain, linear, plane strain, material axes as
+// pressed; locked-in stress, geometric stiffness and springback are ignored.
 //  - tension: end planes kept plane and free to move through the thickness, E = 2 U/(eps^2 L b h)
 //  - bending by end rotation: end plane x = L turned by theta at no axial force, E_b = 2 U L/(I theta^2)
-//  - bending by end couple: x = 0 clamped, axial forces +-P over the end faces of the outermost rows present at x = L, a lever d
+//  - bending by end couple: x = 0 clamped, axial forces +-P over the end faces of the outermost rows present at x = L,
+//  a lever d
 //    apart: E_b = M^2 L/(2 U I), M = P d; [Le 4.2]
-// with U the energy of wood and glue lines, h the platen gap and I = b h^3/12. Throws InputError for options it cannot use and for
-// a panel of which no strands connect both ends; RunError for an inverted element.
+// with U the energy of wood and glue lines, h the platen gap and I = b h^3/12. Throws InputError for options it cannot
+// use and for a panel of which no strands connect both ends; RunError for an inverted element.
 Result measure(const Panel<2>& panel, const Options& options);
 
 }  // namespace strandlab::vtest
