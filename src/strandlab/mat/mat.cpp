@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "strandlab/core/error.hpp"
@@ -79,12 +80,13 @@ void require_object(const Json& value, const std::string& where) {
   if (!value.is_object()) reject(where, fmt::format("found {} in place of an object {{...}}", shown(value)));
 }
 
-Json others(const Json& object, const Keys& known) {
+// The members of an object besides the known ones, as text; keys in alphabetical order.
+std::string others(const Json& object, const Keys& known) {
   Json extra = Json::object();
   for (const auto& item : object.items()) {
     if (std::find(known.begin(), known.end(), item.key()) == known.end()) extra[item.key()] = item.value();
   }
-  return extra;
+  return extra.empty() ? "" : extra.dump();
 }
 
 Strand strand_from(const Json& json, const std::string& where) {
@@ -199,13 +201,9 @@ std::string coordinate(double mm) {
   return digits;
 }
 
-std::string members(const Json& extra, const char* separator) {
-  std::string out;
-  if (!extra.is_object()) return out;
-  for (const auto& item : extra.items()) {
-    out += fmt::format("{}{}:{}", separator, Json(item.key()).dump(), item.value().dump());
-  }
-  return out;
+// Extra keys as further members of an object: the text within their braces after a separator.
+std::string members(const std::string& extra, const char* separator) {
+  return extra.size() > 2 ? separator + extra.substr(1, extra.size() - 2) : "";
 }
 
 std::string strand_text(const Strand& s) {

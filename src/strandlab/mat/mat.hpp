@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,13 +12,13 @@ struct Strand {
   double x0_mm = 0, x1_mm = 0;
   std::optional<double> angle_deg;      // else that of the strand kind
   std::optional<std::string> material;  // else that of the strand kind
-  nlohmann::json extra;                 // unknown keys, kept as read
+  std::string extra;                    // unknown keys, kept: text of a JSON object, or empty
 };
 
 struct Layer {
   std::string role;             // name of a strand kind
   std::vector<Strand> strands;  // by x0, not overlapping
-  nlohmann::json extra;
+  std::string extra;
 };
 
 // Section mat: layers bottom to top, each layer_thickness_mm thick, in the window 0..length_mm.
@@ -27,7 +26,7 @@ struct Mat {
   double length_mm = 0;
   double layer_thickness_mm = 0;
   std::vector<Layer> layers;
-  nlohmann::json extra;
+  std::string extra;
 };
 
 // Reads a mat file: coordinates are rounded to 1e-6 mm (a mat read back from its own file is the same to the last bit)

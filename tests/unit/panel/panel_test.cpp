@@ -50,7 +50,7 @@ TEST(MakePanel, ParticlesFillEveryStrandExactly) {
         EXPECT_EQ(s.row, static_cast<int>(row));
         EXPECT_EQ(s.kind, mat.layers[row].role);
         EXPECT_EQ(s.points[1], 6);
-        ASSERT_EQ(s.size(), static_cast<std::size_t>(s.points[0] * s.points[1]));
+        ASSERT_EQ(s.size(), static_cast<std::size_t>(s.points[0]) * static_cast<std::size_t>(s.points[1]));
         const double length = piece.x1_mm - piece.x0_mm;
         EXPECT_NEAR(s.spacing[0] * s.points[0], length, 1e-13 * length);
         EXPECT_LT(std::abs(s.points[0] - length / asked), 0.5 + 1e-9);
@@ -70,7 +70,7 @@ TEST(MakePanel, PointsRunAlongFirst) {
   ASSERT_EQ(s.points[0], 4);
   for (int j = 0; j < 2; ++j) {
     for (int i = 0; i < 4; ++i) {
-      const auto& x = s.x[static_cast<std::size_t>(i + 4 * j)];
+      const auto& x = s.x[static_cast<std::size_t>(i) + 4 * static_cast<std::size_t>(j)];
       EXPECT_NEAR(x[0], 10.5 + i, 1e-13);
       EXPECT_NEAR(x[1], 1.0 + 0.4 * j, 1e-13);
     }
@@ -134,7 +134,7 @@ TEST(MakePanel, UnknownRoleAndMaterialAreInputErrors) {
 TEST(Corners, OfAnUndeformedStrandAreExact) {
   const auto s = make_panel(one_strand(12.5, 31.7), kinds(), 0.3, 4).strands.at(1);
   const auto c = corners(s);
-  ASSERT_EQ(c.size(), static_cast<std::size_t>((s.points[0] + 1) * 5));
+  ASSERT_EQ(c.size(), static_cast<std::size_t>(s.points[0] + 1) * 5);
   for (int j = 0; j <= 4; ++j) {
     for (int i = 0; i <= s.points[0]; ++i) {
       const auto& corner = c[static_cast<std::size_t>(i + (s.points[0] + 1) * j)];
