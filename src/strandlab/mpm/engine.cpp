@@ -312,6 +312,8 @@ struct Engine<Dim>::Impl {
     }
     for (int a = 0; a < Dim; ++a) f.inverse_cell[a] = 1 / f.cell[a];
     f.dt = state.time_step_s;
+    f.platen[0] = {has_platens, state.bottom.position, state.bottom.velocity};
+    f.platen[1] = {has_platens, state.top.position, state.top.velocity};
     return f;
   }
 
@@ -443,6 +445,18 @@ struct Engine<Dim>::Impl {
       each_particle(body, [&](int, const Vec<Dim>& x, const double*) { points.push_back(x); });
       windows[b].field = window_over(points, f, node_records);
       node_records += windows[b].field.records;
+      for (int k = 0; k < 2 && has_platens; ++k) {
+        const double wall = k == 0 ? state.bottom.position : state.top.position;
+        std::vector<Vec<Dim>> images;
+        for (Vec<Dim> x : points) {  // kMirrorDepth, and what may come within it before the next rebuild
+          if (std::abs(x[Dim - 1] - wall) > (kMirrorDepth + 1) * f.cell[Dim - 1]) continue;
+          x[Dim - 1] = 2 * wall - x[Dim - 1];
+          images.push_back(x);
+        }
+        if (images.empty()) continue;
+        windows[b].mirrors[k] = window_over(images, f, node_records);
+        node_records += windows[b].mirrors[k].records;
+      }
       for (const auto& face : body.faces) {
         points.clear();
         for (std::size_t i = 0; i < face.where.size(); ++i) {
@@ -485,6 +499,10 @@ struct Engine<Dim>::Impl {
       v.modes6 = &body.modes6;
       windows[b].field.window.base = windows[b].field.base.data();
       v.window = windows[b].field.window;
+      for (int k = 0; k < 2; ++k) {
+        windows[b].mirrors[k].window.base = windows[b].mirrors[k].base.data();
+        v.mirror[k] = windows[b].mirrors[k].window;
+      }
       v.faces = static_cast<int>(body.faces.size());
       for (int f = 0; f < v.faces; ++f) {
         windows[b].faces[f].window.base = windows[b].faces[f].base.data();
@@ -521,7 +539,7 @@ struct Engine<Dim>::Impl {
   // The body continues as its mirror image behind a roller: what fell on the ghost nodes is added to their mirror images.
   void fold(const Frame<Dim>& f) {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-      each_ghost(windows[b].field, f, false, [&](int axis, int, int ghost, int mirror, int count) {
+      const auto add_to_mirror = [&](int axis, int, int ghost, int mirror, int count) {
         for (int i = 0; i < count; ++i) {
           double* g = nodes.data() + static_cast<std::size_t>(ghost + i) * kRecord;
           double* m = nodes.data() + static_cast<std::size_t>(mirror + i) * kRecord;
@@ -530,7 +548,9 @@ struct Engine<Dim>::Impl {
             m[k] += odd ? -g[k] : g[k];
           }
         }
-      });
+      };
+      each_ghost(windows[b].field, f, false, add_to_mirror);
+      for (const auto& image : windows[b].mirrors) each_ghost(image, f, false, add_to_mirror);
       for (const auto& face : windows[b].faces) {
         each_ghost(face, f, false, [&](int axis, int side, int ghost, int mirror, int count) {
           const double plane = f.origin[axis] + f.wall[axis][side] * f.cell[axis];
@@ -617,8 +637,6 @@ struct Engine<Dim>::Impl {
     view.fields = table.fields.data();
     view.row_start = table.row_start.data();
     view.slot = table.slots.data();
-    view.platen[0] = {has_platens, state.bottom.position, state.bottom.velocity};
-    view.platen[1] = {has_platens, state.top.position, state.top.velocity};
     view.friction = options.friction;
     view.platen_friction = options.platen_friction;
     view.traction = has_tractions ? tractions.data() : nullptr;

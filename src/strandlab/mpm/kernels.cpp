@@ -167,15 +167,19 @@ STRANDLAB_INLINE void panel_stress(const Pack (&F)[9], const Pack* tau, double v
 
 // Per-lane node contributions as packs over the record: node += w*(momentum row) + grad w . (stress columns), with
 // m_i = sum w m, p_i = sum w m v, f_i = - sum V0 tau grad w.
-struct Rows2 {
+template <int Dim>
+struct Rows;
+template <>
+struct Rows<2> {
   Pack row[kBlock];  // {m, px, py, -Vxx, -Vxy, -Vyy, 0, 0}
 };
-struct Rows3 {
+template <>
+struct Rows<3> {
   Pack row[kBlock];     // {m, px, py, pz, 0...}
   Pack stress[kBlock];  // {-Vxx, -Vyy, -Vzz, -Vyz, -Vxz, -Vxy, 0, 0}
 };
 
-STRANDLAB_INLINE void prepare(const Pack (&v)[2], const Pack (&F)[4], const Pack* tau, double mass, double volume, Rows2& r) {
+STRANDLAB_INLINE void prepare(const Pack (&v)[2], const Pack (&F)[4], const Pack* tau, double mass, double volume, Rows<2>& r) {
   Pack s[3];
   panel_stress(F, tau, volume, s);
   r.row[0] = splat(mass);
@@ -185,7 +189,7 @@ STRANDLAB_INLINE void prepare(const Pack (&v)[2], const Pack (&F)[4], const Pack
   r.row[6] = r.row[7] = Pack{};
   transpose(r.row);
 }
-STRANDLAB_INLINE void prepare(const Pack (&v)[3], const Pack (&F)[9], const Pack* tau, double mass, double volume, Rows3& r) {
+STRANDLAB_INLINE void prepare(const Pack (&v)[3], const Pack (&F)[9], const Pack* tau, double mass, double volume, Rows<3>& r) {
   Pack s[6];
   panel_stress(F, tau, volume, s);
   r.row[0] = splat(mass);
@@ -199,7 +203,7 @@ STRANDLAB_INLINE void prepare(const Pack (&v)[3], const Pack (&F)[9], const Pack
 
 STRANDLAB_INLINE void add(double* record, const Pack& a) { store(record, load(record) + a); }
 
-STRANDLAB_INLINE void scatter_lane(const Rows2& r, const Stencil<2>& s, const Window& window, int l, double* nodes) {
+STRANDLAB_INLINE void scatter_lane(const Rows<2>& r, const Stencil<2>& s, const Window& window, int l, double* nodes) {
   const Pack zero{};
   const Pack momentum = __builtin_shufflevector(r.row[l], zero, 0, 1, 2, 8, 8, 8, 8, 8);
   const Pack column_x = __builtin_shufflevector(r.row[l], zero, 8, 8, 8, 3, 4, 8, 8, 8);
@@ -214,7 +218,7 @@ STRANDLAB_INLINE void scatter_lane(const Rows2& r, const Stencil<2>& s, const Wi
     for (int j = 0; j < 3; ++j) add(node + kRecord * j, by_weight * s.w[1][j][l] + by_gradient * s.g[1][j][l]);
   }
 }
-STRANDLAB_INLINE void scatter_lane(const Rows3& r, const Stencil<3>& s, const Window& window, int l, double* nodes) {
+STRANDLAB_INLINE void scatter_lane(const Rows<3>& r, const Stencil<3>& s, const Window& window, int l, double* nodes) {
   const Pack zero{};
   const Pack& momentum = r.row[l];
   const Pack column_x = __builtin_shufflevector(r.stress[l], zero, 8, 8, 8, 8, 0, 5, 4, 8);
@@ -228,6 +232,31 @@ STRANDLAB_INLINE void scatter_lane(const Rows3& r, const Stencil<3>& s, const Wi
     const Pack by_gradient = column_z * w;
     double* node = nodes + kRecord * static_cast<long>(record[q]);
     for (int j = 0; j < 3; ++j) add(node + kRecord * j, by_weight * s.w[2][j][l] + by_gradient * s.g[2][j][l]);
+  }
+}
+
+// The mirror image of eight particles in platen k: reflected position, velocity relative to the platen, and stress.
+template <int Dim>
+STRANDLAB_INLINE void scatter_mirror(const Pack (&x)[Dim], const Pack (&v)[Dim], const Pack (&F)[Dim * Dim], const Pack (&tau)[6],
+                                     const BodyView<Dim>& body, const Frame<Dim>& frame, int k, int lanes, double* nodes) {
+  constexpr int y = Dim - 1;
+  const Pack depth = absolute(x[y] - frame.platen[k].position) * frame.inverse_cell[y];
+  const Mask close = depth < kMirrorDepth;
+  if (!any(close)) return;
+  Pack mx[Dim], mv[Dim], mF[Dim * Dim], stretch[Dim], mtau[6];
+  for (int a = 0; a < Dim; ++a) {
+    mx[a] = a == y ? 2 * frame.platen[k].position - x[a] : x[a];
+    mv[a] = a == y ? 2 * frame.platen[k].velocity - v[a] : v[a];
+    for (int b = 0; b < Dim; ++b) mF[a * Dim + b] = (a == y) == (b == y) ? F[a * Dim + b] : -F[a * Dim + b];
+  }
+  for (int c = 0; c < (Dim == 2 ? 4 : 6); ++c) mtau[c] = c == 3 || c == 4 ? -tau[c] : tau[c];  // 13 and 23 change sign
+  diagonal<Dim>(mF, stretch);
+  Stencil<Dim> s;
+  stencil_at<Dim>(mx, stretch, body.half_size, frame, s);
+  Rows<Dim> rows;
+  prepare(mv, mF, mtau, body.mass, body.volume, rows);
+  for (int l = 0; l < lanes; ++l) {
+    if (close[l]) scatter_lane(rows, s, body.mirror[k], l, nodes);
   }
 }
 
@@ -321,14 +350,11 @@ void scatter(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& fram
     Stencil<Dim> s;
     stencil_at<Dim>(x, stretch, body.half_size, frame, s);
     lap(result.ticks[0]);
-    if constexpr (Dim == 2) {
-      Rows2 rows;
-      prepare(v, F, tau, body.mass, body.volume, rows);
-      for (int l = 0; l < lanes[b]; ++l) scatter_lane(rows, s, body.window, l, nodes);
-    } else {
-      Rows3 rows;
-      prepare(v, F, tau, body.mass, body.volume, rows);
-      for (int l = 0; l < lanes[b]; ++l) scatter_lane(rows, s, body.window, l, nodes);
+    Rows<Dim> rows;
+    prepare(v, F, tau, body.mass, body.volume, rows);
+    for (int l = 0; l < lanes[b]; ++l) scatter_lane(rows, s, body.window, l, nodes);
+    for (int k = 0; k < 2; ++k) {
+      if (body.mirror[k].height > 0) scatter_mirror<Dim>(x, v, F, tau, body, frame, k, lanes[b], nodes);
     }
     lap(result.ticks[1]);
   }
@@ -357,7 +383,9 @@ struct NodeFace {
 template <int Dim>
 struct Meeting {  // a velocity field at a node where several meet
   double mass, inverse_mass;
-  double start[Dim], v[Dim];  // trial velocity before contact; now
+  double start[Dim];  // velocity at the start of the step, for the work of the impulses
+  double trial[Dim];  // after forces, before contact
+  double v[Dim];      // now
   double* record;
   int faces;
   NodeFace<Dim> face[kMaxFaces];
@@ -463,28 +491,17 @@ STRANDLAB_INLINE double contact_pass(Meeting<Dim>* m, int fields, Pair<Dim>* pai
   return __builtin_sqrt(largest);
 }
 
-// Contact among the fields of one node, momentum conserving, independent of their order.
+// The impulses of all pairs at a node, then the velocities of its first `real` fields (images follow them) and the energies lost.
 template <int Dim>
-STRANDLAB_INLINE void contact(Meeting<Dim>* m, int fields, int first_platen, const GridView<Dim>& grid, double reach, double dt,
+STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* pairs, int count, const Frame<Dim>& frame,
                               PencilResult& result) {
-  Pair<Dim> pairs[kMaxFields * (kMaxFields - 1) / 2];
-  int count = 0;
   for (int i = 0; i < fields; ++i) m[i].partners = 0;
-  for (int i = 0; i < fields; ++i) {
-    for (int j = i + 1; j < fields && i < first_platen; ++j) {
-      Pair<Dim>& pair = pairs[count];
-      if (!find_pair<Dim>(m[i], m[j], reach, dt, pair)) continue;
-      pair.a = i;
-      pair.b = j;
-      pair.friction = j >= first_platen ? grid.platen_friction : grid.friction;
-      pair.normal = 0;
-      for (int d = 0; d < Dim; ++d) pair.shear[d] = 0;
-      ++m[i].partners;
-      ++m[j].partners;
-      ++count;
-    }
+  for (int p = 0; p < count; ++p) {
+    ++m[pairs[p].a].partners;
+    ++m[pairs[p].b].partners;
+    pairs[p].normal = 0;
+    for (int d = 0; d < Dim; ++d) pairs[p].shear[d] = 0;
   }
-  if (count == 0) return;
   for (int p = 0; p < count; ++p) {
     const Meeting<Dim>&a = m[pairs[p].a], &b = m[pairs[p].b];
     pairs[p].reduced = 1 / (a.partners * a.inverse_mass + b.partners * b.inverse_mass);
@@ -496,72 +513,83 @@ STRANDLAB_INLINE void contact(Meeting<Dim>* m, int fields, int first_platen, con
     if (k == 0) first = change;
     if (change <= 1e-6 * first) break;
   }
-  // Work of each impulse on the mean relative velocity of the step: what the pair lost.
+  // Work of each impulse on the mean relative velocity of the step (all its forces included): what the pair lost.
   for (int p = 0; p < count; ++p) {
     const Pair<Dim>& pair = pairs[p];
     const Meeting<Dim>&a = m[pair.a], &b = m[pair.b];
+    const bool on_platen = pair.b >= real;
+    const int k = pair.n[Dim - 1] > 0;
     double mean[Dim];
-    for (int d = 0; d < Dim; ++d) mean[d] = 0.5 * (b.v[d] + b.start[d] - a.v[d] - a.start[d]);
+    for (int d = 0; d < Dim; ++d) {
+      const double other = !on_platen ? 0.5 * (b.v[d] + b.start[d]) : d == Dim - 1 ? frame.platen[k].velocity : 0.0;
+      mean[d] = other - 0.5 * (a.v[d] + a.start[d]);
+    }
     result.contact -= pair.normal * dot<Dim>(mean, pair.n);
     result.friction -= dot<Dim>(pair.shear, mean);
-    if (pair.b >= first_platen) {
-      const int which = pair.n[Dim - 1] > 0;  // the top platen lies above
-      result.platen_impulse[which] += pair.normal;
-      for (int d = 0; d < Dim; ++d) result.platen_work -= (pair.normal * pair.n[d] + pair.shear[d]) * b.v[d];
+    if (on_platen) {
+      result.platen_impulse[k] += pair.normal;
+      result.platen_work -= pair.normal * pair.n[Dim - 1] * frame.platen[k].velocity;
     }
   }
-  for (int i = 0; i < first_platen; ++i) {
+  for (int i = 0; i < real; ++i) {
     for (int d = 0; d < Dim; ++d) {
       m[i].record[d] = m[i].v[d];
-      m[i].record[Dim + d] += m[i].v[d] - m[i].start[d];
+      m[i].record[Dim + d] += m[i].v[d] - m[i].trial[d];
     }
   }
 }
 
-// A platen meets the bodies as a field of infinite mass with one flat face.
+// The mirror image of a field in platen k. Its tangential motion is reversed too, so that a pair that sticks stops at the wall
+// while one that slides feels only the friction allowed. Returns false where the image has no mass.
 template <int Dim>
-STRANDLAB_INLINE void platen_meeting(const PlatenView& platen, double direction, const double* x, Meeting<Dim>& m) {
-  m.mass = 0;
-  m.inverse_mass = 0;
-  for (int d = 0; d < Dim; ++d) m.start[d] = m.v[d] = m.face[0].n[d] = 0;
-  m.start[Dim - 1] = m.v[Dim - 1] = platen.velocity;
-  m.faces = 1;
-  m.face[0].n[Dim - 1] = direction;
-  m.face[0].distance = (platen.position - x[Dim - 1]) * direction;
-  m.record = nullptr;
+STRANDLAB_INLINE bool mirror_meeting(const PencilField& field, int k, int row, const GridView<Dim>& grid, Meeting<Dim>& m) {
+  if (row < field.mirror[k].row_lo || row >= field.mirror[k].row_hi) return false;
+  m.record = grid.nodes + kRecord * static_cast<long>(field.mirror[k].base + row);
+  m.mass = m.record[7];
+  if (!(m.mass > 0)) return false;
+  m.inverse_mass = 1 / m.mass;
+  for (int d = 0; d < Dim; ++d) {
+    const double sign = d == Dim - 1 ? 1 : -1;
+    m.trial[d] = m.v[d] = sign * m.record[d];
+    m.start[d] = sign * (m.record[d] - m.record[Dim + d]);
+  }
+  return true;
 }
 
-// Momentum balance at a field's nodes on a pencil: v = p/m, dv = dt f/m + dt g. On a roller plane the normal component is zero.
+// Contact of a field with platen k: the pair of the field (a) and its image (b). The gap to the image is twice that to the wall.
 template <int Dim>
-STRANDLAB_INLINE void momentum_balance(const Pencil& pencil, const PencilField& field, const Frame<Dim>& frame,
-                                       const GridView<Dim>& grid, PencilResult& result) {
-  if (grid.traction) {
-    for (int f = 0; f < field.faces; ++f) {
-      const double* t = grid.traction + (static_cast<long>(field.body) * kMaxFaces + f) * Dim;
-      for (int row = field.face[f].row_lo; row < field.face[f].row_hi; ++row) {
-        const double W = grid.surface[kSurfaceRecord<Dim> * static_cast<long>(field.face[f].base + row) + Dim];
-        double* r = grid.nodes + kRecord * static_cast<long>(field.base + row);
-        if (!(W > 0) || !(r[0] > 0)) continue;
-        for (int d = 0; d < Dim; ++d) {
-          r[1 + Dim + d] += t[d] * W;
-          result.external_work += t[d] * W * frame.dt * r[1 + d] / r[0];
-        }
-      }
-    }
+STRANDLAB_INLINE bool platen_pair(const Meeting<Dim>& field, const Frame<Dim>& frame, int k, double node_height, double reach,
+                                  Pair<Dim>& pair) {
+  const double direction = k == 0 ? -1 : 1;  // from the field to the platen
+  double gap = 1e300;
+  for (int f = 0; f < field.faces; ++f) {
+    const NodeFace<Dim>& face = field.face[f];
+    if (face.n[Dim - 1] * direction < 0.5) continue;
+    const double to_wall = (frame.platen[k].position - node_height) * direction - face.distance * face.n[Dim - 1] * direction;
+    gap = to_wall < gap ? to_wall : gap;
   }
-  bool on_wall[Dim] = {};
-  for (int a = 0; a < Dim - 1; ++a) on_wall[a] = pencil.index[a] == frame.wall[a][0] || pencil.index[a] == frame.wall[a][1];
-  for (int row = field.row_lo; row < field.row_hi; ++row) {
-    double* r = grid.nodes + kRecord * static_cast<long>(field.base + row);
+  if (gap > reach) return false;
+  for (int d = 0; d < Dim; ++d) pair.n[d] = 0;
+  pair.n[Dim - 1] = direction;
+  pair.target = gap > 0 ? -2 * gap / frame.dt : 0;
+  return true;
+}
+
+// v = p/m, dv = dt f/m + dt g. On a roller plane the normal component is zero. A mirror image feels gravity reversed.
+template <int Dim>
+STRANDLAB_INLINE void advance_nodes(const PencilField::Rows& rows, const bool (&on_wall)[Dim], double gravity_sign,
+                                    const Frame<Dim>& frame, double* nodes) {
+  for (int row = rows.row_lo; row < rows.row_hi; ++row) {
+    double* r = nodes + kRecord * static_cast<long>(rows.base + row);
     const double mass = r[0];
     if (!(mass > 0)) continue;
     const double inverse = 1 / mass;
     double v[Dim], dv[Dim];
     for (int d = 0; d < Dim; ++d) {
+      const double g = d == Dim - 1 ? gravity_sign * frame.gravity[d] : frame.gravity[d];
       v[d] = r[1 + d] * inverse;
-      dv[d] = frame.dt * (r[1 + Dim + d] * inverse + frame.gravity[d]);
+      dv[d] = frame.dt * (r[1 + Dim + d] * inverse + g);
       if (on_wall[d]) v[d] = dv[d] = 0;
-      result.external_work += mass * frame.dt * frame.gravity[d] * (v[d] + 0.5 * dv[d]);
     }
     for (int d = 0; d < Dim; ++d) {
       r[d] = v[d] + dv[d];
@@ -571,62 +599,121 @@ STRANDLAB_INLINE void momentum_balance(const Pencil& pencil, const PencilField& 
   }
 }
 
+// Momentum balance at the nodes of a field and of its mirror images on a pencil; tractions first.
+template <int Dim>
+STRANDLAB_INLINE void momentum_balance(const Pencil& pencil, const PencilField& field, const Frame<Dim>& frame,
+                                       const GridView<Dim>& grid) {
+  if (grid.traction) {
+    for (int f = 0; f < field.faces; ++f) {
+      const double* t = grid.traction + (static_cast<long>(field.body) * kMaxFaces + f) * Dim;
+      for (int row = field.face[f].row_lo; row < field.face[f].row_hi; ++row) {
+        const double W = grid.surface[kSurfaceRecord<Dim> * static_cast<long>(field.face[f].base + row) + Dim];
+        double* r = grid.nodes + kRecord * static_cast<long>(field.base + row);
+        if (!(W > 0) || !(r[0] > 0)) continue;
+        for (int d = 0; d < Dim; ++d) {
+          r[1 + Dim + d] += t[d] * W;
+        }
+      }
+    }
+  }
+  bool on_wall[Dim] = {};
+  for (int a = 0; a < Dim - 1; ++a) on_wall[a] = pencil.index[a] == frame.wall[a][0] || pencil.index[a] == frame.wall[a][1];
+  advance_nodes<Dim>({field.base, field.row_lo, field.row_hi}, on_wall, 1, frame, grid.nodes);
+  for (int k = 0; k < 2; ++k) advance_nodes<Dim>(field.mirror[k], on_wall, -1, frame, grid.nodes);
+}
+
+// Energies of a field's nodes after the update: 1/2 sum m |dv|^2, of which lumping the mass costs a part when the particles take up
+// dv, and the work of gravity and tractions on the mean velocity of the step.
+template <int Dim>
+STRANDLAB_INLINE void book_energies(const PencilField& field, const Frame<Dim>& frame, const GridView<Dim>& grid,
+                                    PencilResult& result) {
+  for (int row = field.row_lo; row < field.row_hi; ++row) {
+    const double* r = grid.nodes + kRecord * static_cast<long>(field.base + row);
+    result.kinetic_change += 0.5 * r[7] * dot<Dim>(r + Dim, r + Dim);
+    for (int d = 0; d < Dim; ++d) result.external_work += r[7] * frame.dt * frame.gravity[d] * (r[d] - 0.5 * r[Dim + d]);
+    if (!grid.traction) continue;
+    for (int f = 0; f < field.faces; ++f) {
+      if (row < field.face[f].row_lo || row >= field.face[f].row_hi) continue;
+      const double* t = grid.traction + (static_cast<long>(field.body) * kMaxFaces + f) * Dim;
+      const double W = grid.surface[kSurfaceRecord<Dim> * static_cast<long>(field.face[f].base + row) + Dim];
+      for (int d = 0; d < Dim; ++d) result.external_work += t[d] * W * frame.dt * (r[d] - 0.5 * r[Dim + d]);
+    }
+  }
+}
+
+// Contact at the nodes of one row of a pencil, momentum conserving, independent of the order of the bodies.
+template <int Dim>
+STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, const Frame<Dim>& frame, const GridView<Dim>& grid,
+                                  PencilResult& result) {
+  const double cell = frame.cell[Dim - 1], reach = 0.25 * cell;
+  const int begin = grid.row_start[pencil.slots + row - pencil.row_lo];
+  const int end = grid.row_start[pencil.slots + row - pencil.row_lo + 1];
+  x[Dim - 1] = frame.origin[Dim - 1] + row * cell;
+  bool platen[2];
+  for (int k = 0; k < 2; ++k) {
+    platen[k] = frame.platen[k].present && (frame.platen[k].position - x[Dim - 1]) * (k == 0 ? -1 : 1) < 1.5 * cell;
+  }
+  const int least = platen[0] || platen[1] ? 1 : 2;
+  if (end - begin < least) return;
+  Meeting<Dim> m[3 * kMaxFields];
+  const PencilField* origin[kMaxFields];
+  int fields = 0;
+  for (int s = begin; s < end; ++s) {
+    const PencilField& field = grid.fields[pencil.field_begin + grid.slot[s]];
+    double* record = grid.nodes + kRecord * static_cast<long>(field.base + row);
+    if (!(record[7] > 0)) continue;
+    if (fields == kMaxFields) {
+      result.overflow = 1;
+      break;
+    }
+    m[fields].record = record;
+    origin[fields++] = &field;
+  }
+  if (fields < least) return;
+  const int real = fields;
+  for (int i = 0; i < real; ++i) {
+    m[i].mass = m[i].record[7];
+    m[i].inverse_mass = 1 / m[i].mass;
+    for (int d = 0; d < Dim; ++d) {
+      m[i].trial[d] = m[i].v[d] = m[i].record[d];
+      m[i].start[d] = m[i].record[d] - m[i].record[Dim + d];
+    }
+    find_faces<Dim>(*origin[i], row, x, grid.surface, m[i]);
+  }
+  Pair<Dim> pairs[kMaxFields * (kMaxFields + 3) / 2];
+  int count = 0;
+  for (int i = 0; i < real; ++i) {
+    for (int j = i + 1; j < real; ++j) {
+      Pair<Dim>& pair = pairs[count];
+      if (!find_pair<Dim>(m[i], m[j], reach, frame.dt, pair)) continue;
+      pair.a = i;
+      pair.b = j;
+      pair.friction = grid.friction;
+      ++count;
+    }
+    for (int k = 0; k < 2; ++k) {
+      Pair<Dim>& pair = pairs[count];
+      if (!platen[k] || !platen_pair<Dim>(m[i], frame, k, x[Dim - 1], reach, pair)) continue;
+      if (!mirror_meeting<Dim>(*origin[i], k, row, grid, m[fields])) continue;
+      pair.a = i;
+      pair.b = fields++;
+      pair.friction = grid.platen_friction;
+      ++count;
+    }
+  }
+  if (count > 0) resolve<Dim>(m, fields, real, pairs, count, frame, result);
+}
+
 template <int Dim>
 void update_grid(const Pencil& pencil, const Frame<Dim>& frame, const GridView<Dim>& grid, bool profile, PencilResult& result) {
   if (pencil.ghost) return;
-  for (int f = pencil.field_begin; f < pencil.field_end; ++f) momentum_balance<Dim>(pencil, grid.fields[f], frame, grid, result);
-  Lap contact_lap(profile);
-  Meeting<Dim> m[kMaxFields + 2];
+  for (int f = pencil.field_begin; f < pencil.field_end; ++f) momentum_balance<Dim>(pencil, grid.fields[f], frame, grid);
+  Lap lap(profile);
   double x[Dim];
   for (int a = 0; a < Dim - 1; ++a) x[a] = frame.origin[a] + pencil.index[a] * frame.cell[a];
-  const double reach = 0.25 * frame.cell[Dim - 1];
-  for (int row = pencil.row_lo; row < pencil.row_hi; ++row) {
-    const int begin = grid.row_start[pencil.slots + row - pencil.row_lo];
-    const int end = grid.row_start[pencil.slots + row - pencil.row_lo + 1];
-    int fields = 0;
-    x[Dim - 1] = frame.origin[Dim - 1] + row * frame.cell[Dim - 1];
-    bool near_platen[2];
-    for (int k = 0; k < 2; ++k) {
-      const double distance = (grid.platen[k].position - x[Dim - 1]) * (k == 0 ? -1 : 1);
-      near_platen[k] = grid.platen[k].present && distance < 2.5 * frame.cell[Dim - 1];
-    }
-    const bool platens = near_platen[0] || near_platen[1];
-    if (end - begin < (platens ? 1 : 2)) continue;
-    for (int s = begin; s < end; ++s) {
-      const PencilField& field = grid.fields[pencil.field_begin + grid.slot[s]];
-      double* record = grid.nodes + kRecord * static_cast<long>(field.base + row);
-      if (!(record[7] > 0)) continue;
-      if (fields == kMaxFields) {
-        result.overflow = 1;
-        break;
-      }
-      m[fields].record = record;
-      m[fields].faces = -1 - grid.slot[s];  // looked up below, where another field is there to meet
-      ++fields;
-    }
-    if (fields < (platens ? 1 : 2)) continue;
-    for (int i = 0; i < fields; ++i) {
-      const PencilField& field = grid.fields[pencil.field_begin + (-1 - m[i].faces)];
-      m[i].mass = m[i].record[7];
-      m[i].inverse_mass = 1 / m[i].mass;
-      for (int d = 0; d < Dim; ++d) m[i].start[d] = m[i].v[d] = m[i].record[d];
-      find_faces<Dim>(field, row, x, grid.surface, m[i]);
-    }
-    const int first_platen = fields;
-    for (int k = 0; k < 2; ++k) {
-      if (near_platen[k]) platen_meeting<Dim>(grid.platen[k], k == 0 ? 1.0 : -1.0, x, m[fields++]);
-    }
-    contact<Dim>(m, fields, first_platen, grid, reach, frame.dt, result);
-  }
-  contact_lap(result.contact_ticks);
-  // What lumping the mass will cost when the particles take up dv: the grid's share.
-  for (int f = pencil.field_begin; f < pencil.field_end; ++f) {
-    const PencilField& field = grid.fields[f];
-    for (int row = field.row_lo; row < field.row_hi; ++row) {
-      const double* r = grid.nodes + kRecord * static_cast<long>(field.base + row);
-      result.kinetic_change += 0.5 * r[7] * dot<Dim>(r + Dim, r + Dim);
-    }
-  }
+  for (int row = pencil.row_lo; row < pencil.row_hi; ++row) contact_row<Dim>(pencil, row, x, frame, grid, result);
+  lap(result.contact_ticks);
+  for (int f = pencil.field_begin; f < pencil.field_end; ++f) book_energies<Dim>(grid.fields[f], frame, grid, result);
 }
 
 // ---------------------------------------------------------------------------------------------- grid to particles

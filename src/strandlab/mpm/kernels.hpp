@@ -34,6 +34,10 @@ struct Frame {
   double dt;
   double gravity[Dim];
   int wall[Dim][2];  // node index of a roller plane, or kNoWall
+  struct {
+    int present;
+    double position, velocity;
+  } platen[2];  // bottom, top
 };
 inline constexpr int kNoWall = 1 << 30;
 
@@ -63,9 +67,14 @@ struct BodyView {
   const wood::YieldModes<4>* modes4;
   const wood::YieldModes<6>* modes6;
   Window window;
+  Window mirror[2];  // nodes of its mirror images in the bottom and top platens; height 0: far away
   int faces;
   SurfaceView<Dim> face[kMaxFaces];
 };
+
+// A platen acts on a body as contact with the body's own mirror image: exact for a flat rigid wall wherever it lies between the
+// grid lines. Particles within this distance of it, in cells, are mirrored.
+inline constexpr double kMirrorDepth = 2.3;
 
 // Unit of parallel work: a run of blocks of one body, and the face points that ride on them (in packs of eight).
 struct Tile {
@@ -89,9 +98,11 @@ struct PencilField {
   int base;           // record index of row 0
   int row_lo, row_hi; // rows stored: lo <= row < hi
   int faces;
-  struct {
+  struct Rows {
     int base, row_lo, row_hi;
-  } face[kMaxFaces];
+  };
+  Rows face[kMaxFaces];
+  Rows mirror[2];
 };
 
 struct Pencil {
@@ -102,11 +113,6 @@ struct Pencil {
   int ghost;                   // behind a roller plane: folded onto its mirror image
 };
 
-struct PlatenView {
-  int present;
-  double position, velocity;
-};
-
 template <int Dim>
 struct GridView {
   double* nodes;
@@ -114,7 +120,6 @@ struct GridView {
   const PencilField* fields;
   const int* row_start;          // per pencil row: range in `slot`
   const unsigned short* slot;    // fields (relative to the pencil's first) whose windows hold that row
-  PlatenView platen[2];          // bottom, top
   double friction, platen_friction;
   const double* traction;        // Dim per (body, face), or null
 };

@@ -89,6 +89,12 @@ bool find_pencil(const WindowStore& w, const std::array<int, 2>& index, int& pen
   return w.hi[pencil] >= w.lo[pencil];
 }
 
+PencilField::Rows rows_on(const WindowStore& w, const std::array<int, 2>& index) {
+  int p = 0;
+  if (!find_pencil(w, index, p)) return {0, 0, 0};
+  return {w.base[p], w.lo[p], w.hi[p] + 1};
+}
+
 // The fields of one pencil, by body.
 void add_fields(const std::vector<BodyWindows>& bodies, const std::array<int, 2>& index, PencilTable& table) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -100,13 +106,8 @@ void add_fields(const std::vector<BodyWindows>& bodies, const std::array<int, 2>
     field.row_lo = bodies[b].field.lo[p];
     field.row_hi = bodies[b].field.hi[p] + 1;
     field.faces = static_cast<int>(bodies[b].faces.size());
-    for (int f = 0; f < field.faces; ++f) {
-      int q = 0;
-      field.face[f] = {0, 0, 0};
-      if (find_pencil(bodies[b].faces[f], index, q)) {
-        field.face[f] = {bodies[b].faces[f].base[q], bodies[b].faces[f].lo[q], bodies[b].faces[f].hi[q] + 1};
-      }
-    }
+    for (int f = 0; f < field.faces; ++f) field.face[f] = rows_on(bodies[b].faces[f], index);
+    for (int k = 0; k < 2; ++k) field.mirror[k] = rows_on(bodies[b].mirrors[k], index);
     table.fields.push_back(field);
   }
 }

@@ -52,6 +52,7 @@ struct PencilTable {
 struct BodyWindows {
   WindowStore field;
   std::vector<WindowStore> faces;
+  std::array<WindowStore, 2> mirrors;  // images in the bottom and the top platen; no pencils: far away
 };
 
 // `walls[axis][side]` is the node index of a roller plane or kNoWall; lateral axes only.
