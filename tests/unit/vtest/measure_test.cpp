@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "strandlab/core/error.hpp"
+#include "strandlab/vtest/vtest.hpp"
+
+namespace strandlab::vtest {
+namespace {
+
+struct Piece {
+  int row;
+  double x0, x1;
+};
+
+// Strands of poplar, 0.8 mm thick, in a window of 20 mm.
+Panel<2> panel_of(const std::vector<Piece>& pieces, double angle_deg = 0) {
+  mat::Mat mat;
+  mat.length_mm = 20;
+  mat.layer_thickness_mm = 0.8;
+  for (const auto& piece : pieces) {
+    while (static_cast<int>(mat.layers.size()) <= piece.row) mat.layers.emplace_back().role = "surface";
+    auto& strand = mat.layers[piece.row].strands.emplace_back();
+    strand.x0_mm = piece.x0;
+    strand.x1_mm = piece.x1;
+  }
+  return make_panel(mat, {{"surface", wood::Material{}, angle_deg}}, 0.8 / 6, 6);
+}
+
+Panel<2> laminate() {
+  return panel_of({{0, 0, 20}, {1, 0, 20}, {2, 0, 20}});
+}
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no InputError";
+}
+
+TEST(Kind, HasANameThatLeadsBack) {
+  for (const Kind kind : {Kind::kTension, Kind::kBendingEndRotation, Kind::kBendingEndCouple}) {
+    EXPECT_EQ(kind_from_name(name(kind)), kind);
+  }
+  const auto message = message_of([] { kind_from_name("torsion"); });
+  EXPECT_NE(message.find("torsion"), std::string::npos);
+  EXPECT_NE(message.find("tension, bending_end_rotation, bending_end_couple"), std::string::npos);
+}
+
+// Gap-free strands at 0, 45 and 90 degrees to the section: plane-strain moduli of a row, 10003.3, 3379.3 and 429.9 MPa.
+TEST(Measure, GivesTheModulusOfTheWoodItself) {
+  for (const auto& [angle, modulus] : {std::pair{0.0, 10003.3}, std::pair{45.0, 3379.3}, std::pair{90.0, 429.9}}) {
+    const auto result = measure(panel_of({{0, 0, 20}, {1, 0, 20}}, angle), {});
+    ASSERT_EQ(result.moduli.size(), 2U);
+    for (const auto& m : result.moduli) EXPECT_NEAR(m.modulus_MPa, modulus, 0.1) << name(m.kind) << " at " << angle;
+    EXPECT_NEAR(result.glued_fraction, 1, 1e-9);
+    EXPECT_EQ(result.floating_strands, 0);
+    EXPECT_TRUE(result.warnings.empty());
+  }
+}
+
+// By kind within compliance, in the order asked for.
+TEST(Measure, ReportsInTheOrderAskedFor) {
+  Options options;
+  options.kinds = {Kind::kBendingEndCouple, Kind::kTension};
+  options.compliance_t_mm_per_MPa = {0.05, 0};
+  const auto result = measure(laminate(), options);
+  ASSERT_EQ(result.moduli.size(), 4U);
+  EXPECT_EQ(result.moduli[0].kind, Kind::kBendingEndCouple);
+  EXPECT_EQ(result.moduli[1].kind, Kind::kTension);
+  EXPECT_EQ(result.moduli[1].compliance_t_mm_per_MPa, 0.05);
+  EXPECT_EQ(result.moduli[2].compliance_t_mm_per_MPa, 0);
+  EXPECT_GT(result.unknowns, 0);
+}
+
+// The strand in the middle row hangs on the left strand only: it is not connected to the right end and carries nothing.
+TEST(Measure, DropsStrandsThatFloat) {
+  const auto result = measure(panel_of({{0, 0, 20}, {2, 0, 6}, {3, 5, 12}}), {});
+  EXPECT_EQ(result.floating_strands, 2);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_NE(result.warnings[0].find("2 of 3 strands"), std::string::npos);
+  // One strand of 0.8 mm carries the tension of a panel 3.2 mm thick.
+  EXPECT_NEAR(result.moduli[0].modulus_MPa, 10003.3 / 4, 0.1);
+}
+
+// Two stacks that do not touch, both between the end planes: in tension they simply add up.
+TEST(Measure, HoldsGroupsThatDoNotTouch) {
+  const auto result = measure(panel_of({{0, 0, 20}, {2, 0, 20}}), {});
+  EXPECT_EQ(result.floating_strands, 0);
+  EXPECT_NEAR(result.moduli[0].modulus_MPa, 10003.3 * 2 / 3, 0.1);
+}
+
+TEST(Measure, SaysWhenNothingConnectsTheEnds) {
+  const auto message = message_of([] { measure(panel_of({{0, 0, 9}, {1, 12, 20}}), {}); });
+  EXPECT_NE(message.find("connect the two ends"), std::string::npos);
+}
+
+// A lap joint whose strands slide: the force of the joint is D_t times slip times overlap, here with the floor D_t =
+// 1e-3 MPa/mm in place of 1/D_t = 1e9. The strands are rigid by comparison.
+TEST(Measure, RaisesGlueThatIsTooSoftToTheFloorAndSaysSo) {
+  Options options;
+  options.compliance_t_mm_per_MPa = {1e9};
+  options.kinds = {Kind::kTension};
+  const auto result = measure(panel_of({{0, 0, 12}, {1, 8, 20}}), options);
+  EXPECT_NEAR(result.moduli[0].modulus_MPa, 1e-3 * 4 * 20 / 1.6, 1e-3 * 0.05);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_NE(result.warnings[0].find("0.001 MPa/mm"), std::string::npos);
+}
+
+// Measured compliances of very good bonds come out slightly negative.
+TEST(Measure, TakesANegativeComplianceAsAPerfectBond) {
+  Options options;
+  options.compliance_t_mm_per_MPa = {0, -0.00022};
+  const auto result = measure(panel_of({{0, 0, 12}, {1, 8, 20}}), options);
+  EXPECT_DOUBLE_EQ(result.moduli[0].modulus_MPa, result.moduli[2].modulus_MPa);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_NE(result.warnings[0].find("negative"), std::string::npos);
+}
+
+// A glue line that opens easily costs stiffness, as one that shears easily does.
+TEST(Measure, FeelsTheNormalCompliance) {
+  Options options;
+  const auto rigid = measure(panel_of({{0, 0, 12}, {1, 8, 20}}), options);
+  options.compliance_n_mm_per_MPa = 0.05;
+  const auto soft = measure(panel_of({{0, 0, 12}, {1, 8, 20}}), options);
+  EXPECT_LT(soft.moduli[0].modulus_MPa, 0.99 * rigid.moduli[0].modulus_MPa);
+}
+
+// The couple acts on the outermost strands that reach the loaded end: a short strand on top does not, so both panels
+// see the same.
+TEST(Measure, AppliesTheCoupleToStrandsThatReachTheLoadedEnd) {
+  Options options;
+  options.kinds = {Kind::kBendingEndCouple};
+  const auto message = message_of([&] { measure(panel_of({{0, 0, 20}, {1, 0, 12}}), options); });
+  EXPECT_NE(message.find("two strands at the loaded end"), std::string::npos);
+  const auto with_short_top = measure(panel_of({{0, 0, 20}, {1, 0, 20}, {2, 0, 1}}), options);
+  const auto without = measure(panel_of({{0, 0, 20}, {1, 0, 20}}), options);
+  // The short strand stiffens the clamped end a little; the modulus is per h^3, and h is 1.5 times as large.
+  EXPECT_NEAR(with_short_top.moduli[0].modulus_MPa * 3.375 / without.moduli[0].modulus_MPa, 1.03, 0.03);
+}
+
+TEST(Measure, RejectsOptionsItCannotUse) {
+  const auto reject = [](const std::function<void(Options&)>& change, const char* part) {
+    Options options;
+    change(options);
+    EXPECT_NE(message_of([&] { measure(laminate(), options); }).find(part), std::string::npos) << part;
+  };
+  reject([](Options& o) { o.kinds.clear(); }, "bending_end_rotation");
+  reject([](Options& o) { o.compliance_t_mm_per_MPa.clear(); }, "1/D_t");
+  reject([](Options& o) { o.compliance_t_mm_per_MPa = {std::nan("")}; }, "1/D_t");
+  reject([](Options& o) { o.compliance_n_mm_per_MPa = std::nan(""); }, "1/D_n");
+  reject([](Options& o) { o.elements_through_strand = 0; }, "1 to 48");
+  reject([](Options& o) { o.elements_through_strand = 1000; }, "1 to 48");
+  reject([](Options& o) { o.curing.max_gap_mm = -1; }, "curing gap");
+  reject([](Options& o) { o.perfect_bond = 0; }, "perfect bond");
+  EXPECT_NE(message_of([] { measure(Panel<2>{}, {}); }).find("no strands"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace strandlab::vtest
