@@ -192,6 +192,7 @@ std::vector<GluePoint<2>> cure(const Panel<2>& panel, const CuringOptions& optio
     bottoms.push_back(make_face(strand, Side::kBottom));
   }
   std::vector<Box> boxes;
+  boxes.reserve(bottoms.size());
   for (const auto& bottom : bottoms) boxes.push_back(bounding_box(bottom));
 
   std::vector<GluePoint<2>> points;

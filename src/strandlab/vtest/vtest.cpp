@@ -96,8 +96,8 @@ Model make_model(const Panel<2>& panel, const Options& options, Result& result) 
   }
   std::erase_if(points, [&](const auto& point) { return group[point.a.strand] < 0; });
 
-  std::vector<bool> keep;
-  for (const int g : group) keep.push_back(g >= 0);
+  std::vector<bool> keep(group.size());
+  std::transform(group.begin(), group.end(), keep.begin(), [](int g) { return g >= 0; });
   model.mesh = statics::make_mesh(panel, keep, options.elements_through_strand);
   model.section = make_section(panel, model.connection, model.mesh);
   model.stiffness.emplace(model.mesh, statics::make_springs(model.mesh, points));
@@ -228,6 +228,22 @@ Result measure(const Panel<2>& panel, const Options& options) {
     }
   }
   return result;
+}
+
+GapSensitivity gap_sensitivity(const Panel<2>& panel, const Options& options) {
+  const auto usual = measure(panel, options);
+  const auto largest_change = [&](double factor) {
+    auto changed = options;
+    changed.curing.max_gap_mm *= factor;
+    const auto result = measure(panel, changed);
+    double change = 0;
+    for (std::size_t i = 0; i < usual.moduli.size(); ++i) {
+      const double relative = result.moduli[i].modulus_MPa / usual.moduli[i].modulus_MPa - 1;
+      if (std::abs(relative) > std::abs(change)) change = relative;
+    }
+    return change;
+  };
+  return {largest_change(0.5), largest_change(2)};
 }
 
 }  // namespace strandlab::vtest

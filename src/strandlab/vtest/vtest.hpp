@@ -51,4 +51,12 @@ struct Result {
 // use and for a panel of which no strands connect both ends; RunError for an inverted element.
 Result measure(const Panel<2>& panel, const Options& options);
 
+// How much the curing gap matters: the largest relative change (signed) of any modulus asked for when it is halved and
+// doubled.
+struct GapSensitivity {
+  double halved = 0, doubled = 0;
+};
+// Three measurements; throws what measure() throws, also when half the gap leaves nothing that connects the ends.
+GapSensitivity gap_sensitivity(const Panel<2>& panel, const Options& options);
+
 }  // namespace strandlab::vtest

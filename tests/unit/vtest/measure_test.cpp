@@ -142,6 +142,23 @@ TEST(Measure, AppliesTheCoupleToStrandsThatReachTheLoadedEnd) {
   EXPECT_NEAR(with_short_top.moduli[0].modulus_MPa * 3.375 / without.moduli[0].modulus_MPa, 1.03, 0.03);
 }
 
+// A lap joint whose faces open from 0 at x = 8 to 0.24 mm at x = 20: the glued length is proportional to the curing
+// gap, and with soft glue and stiff strands so is the tension modulus.
+TEST(GapSensitivity, TellsWhatHalfAndTwiceTheGapDo) {
+  auto panel = panel_of({{0, 0, 20}, {1, 8, 20}, {2, 8, 20}, {3, 8, 20}});
+  panel.strands.erase(panel.strands.begin() + 2, panel.strands.end());
+  for (auto& x : panel.strands[0].x) x[0] *= 0.99;  // does not reach the right end
+  for (auto& F : panel.strands[0].F) F(0, 0) = 0.99;
+  for (auto& x : panel.strands[1].x) x[1] += 0.02 * (x[0] - 8);
+  for (auto& F : panel.strands[1].F) F(1, 0) = 0.02;
+  Options options;
+  options.kinds = {Kind::kTension};
+  options.compliance_t_mm_per_MPa = {100};
+  const auto sensitivity = gap_sensitivity(panel, options);
+  EXPECT_NEAR(sensitivity.halved, -0.5, 0.02);
+  EXPECT_NEAR(sensitivity.doubled, 1, 0.02);
+}
+
 TEST(Measure, RejectsOptionsItCannotUse) {
   const auto reject = [](const std::function<void(Options&)>& change, const char* part) {
     Options options;
