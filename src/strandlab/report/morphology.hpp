@@ -21,10 +21,11 @@ struct Histogram {
 Histogram histogram(std::string quantity, const std::vector<double>& values, const std::vector<double>& weights,
                     double low, double high, int bins);
 
-// Angle of the strands' long axis against the panel's plane, at each material point: 60 bins over -30..30 degrees.
+// Angle of the strands' long axis against the panel's plane, at each material point: bins of 1 degree around 0, to
+// +-30.5.
 Histogram grain_angle_histogram(const Panel<2>& panel);
 // Strain of the strands' thickness, t/t0 - 1 with t perpendicular to the strand, mean over the points through the
-// thickness at each place along it: 60 bins over -0.8..0.4.
+// thickness at each place along it: bins of 0.02 around 0, -0.81..0.41.
 Histogram thickness_strain_histogram(const Panel<2>& panel);
 
 // Areas over the area between the platens in the window 0..length. Strands are the polygons of their corner lattices;

@@ -1,0 +1,215 @@
+#include "strandlab/io/vtk.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "strandlab/core/version.hpp"
+#include "strandlab/io/atomic_file.hpp"
+#include "strandlab/panel/point_fields.hpp"
+
+namespace strandlab::io {
+namespace {
+
+// Cell types of the VTK file format.
+constexpr std::uint8_t kQuad = 9, kHexahedron = 12;
+
+void append_base64(std::string& out, std::span<const unsigned char> bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t left = std::min<std::size_t>(bytes.size() - i, 3);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < left ? bytes[i + k] : 0U);
+    for (std::size_t k = 0; k < 4; ++k) out += k <= left ? digits[group >> (18 - 6 * k) & 63U] : '=';
+  }
+}
+
+// VTK's "binary" array: the number of bytes as UInt64, then the values, as one base64 text.
+template <class Value>
+std::string encoded(const std::vector<Value>& values) {
+  const std::uint64_t size = values.size() * sizeof(Value);
+  std::vector<unsigned char> bytes(sizeof size + size);
+  std::memcpy(bytes.data(), &size, sizeof size);
+  if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
+  std::string out;
+  out.reserve(bytes.size() / 3 * 4 + 4);
+  append_base64(out, bytes);
+  return out;
+}
+
+template <class Value>
+constexpr const char* type_name() {
+  if constexpr (std::is_same_v<Value, float>) return "Float32";
+  if constexpr (std::is_same_v<Value, std::int32_t>) return "Int32";
+  if constexpr (std::is_same_v<Value, std::int64_t>) return "Int64";
+  if constexpr (std::is_same_v<Value, std::uint8_t>) return "UInt8";
+}
+
+template <class Value>
+std::string array(const std::string& name, const std::vector<Value>& values,
+                  const std::vector<std::string>& parts = {}) {
+  std::string head = fmt::format("<DataArray type=\"{}\" Name=\"{}\"", type_name<Value>(), name);
+  if (!parts.empty()) head += fmt::format(" NumberOfComponents=\"{}\"", parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) head += fmt::format(" ComponentName{}=\"{}\"", i, parts[i]);
+  return fmt::format("{} format=\"binary\">{}</DataArray>\n", head, encoded(values));
+}
+
+std::vector<Vec<2>> corner_lattice(const Strand<2>& strand) {
+  return corners(strand);
+}
+
+// As strandlab::corners() for a section: each corner is the mean of those that the adjacent particle domains put there.
+std::vector<Vec<3>> corner_lattice(const Strand<3>& strand) {
+  const auto [nx, ny, nz] = strand.points;
+  std::vector<Vec<3>> sum(static_cast<std::size_t>(nx + 1) * (ny + 1) * (nz + 1), Vec<3>::Zero());
+  std::vector<int> count(sum.size(), 0);
+  for (std::size_t p = 0; p < strand.size(); ++p) {
+    const auto n = static_cast<int>(p);
+    const int i = n % nx, j = n / nx % ny, k = n / nx / ny;
+    for (int corner = 0; corner < 8; ++corner) {
+      const int di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2;
+      const Vec<3> half = (Vec<3>(di, dj, dk).array() - 0.5).matrix().cwiseProduct(strand.spacing);
+      const auto c =
+          static_cast<std::size_t>(i + di) + static_cast<std::size_t>(nx + 1) * ((j + dj) + (ny + 1) * (k + dk));
+      sum[c] += strand.x[p] + strand.F[p] * half;
+      ++count[c];
+    }
+  }
+  for (std::size_t c = 0; c < sum.size(); ++c) sum[c] /= count[c];
+  return sum;
+}
+
+// Corners of cell `point` in its strand's corner lattice, in VTK's order (around the bottom, then around the top).
+std::vector<std::int64_t> cell_corners(const std::array<int, 2>& points, std::int64_t point) {
+  const std::int64_t nx = points[0], c = point / nx * (nx + 1) + point % nx;
+  return {c, c + 1, c + nx + 2, c + nx + 1};
+}
+
+std::vector<std::int64_t> cell_corners(const std::array<int, 3>& points, std::int64_t point) {
+  const std::int64_t nx = points[0], ny = points[1], layer = (nx + 1) * (ny + 1);
+  const std::int64_t c = point % nx + (nx + 1) * (point / nx % ny) + layer * (point / nx / ny);
+  return {c,         c + 1,         c + nx + 2,         c + nx + 1,  //
+          c + layer, c + 1 + layer, c + nx + 2 + layer, c + nx + 1 + layer};
+}
+
+template <int Dim>
+std::string mesh(const Panel<Dim>& panel) {
+  std::vector<float> points;
+  std::vector<std::int64_t> connectivity, offsets;
+  for (const auto& strand : panel.strands) {
+    const auto first = static_cast<std::int64_t>(points.size() / 3);
+    for (const auto& corner : corner_lattice(strand)) {
+      for (int d = 0; d < 3; ++d) points.push_back(d < Dim ? static_cast<float>(corner[d]) : 0.0F);
+    }
+    for (std::size_t p = 0; p < strand.size(); ++p) {
+      for (const auto corner : cell_corners(strand.points, static_cast<std::int64_t>(p))) {
+        connectivity.push_back(first + corner);
+      }
+      offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+    }
+  }
+  const std::vector<std::uint8_t> types(offsets.size(), Dim == 2 ? kQuad : kHexahedron);
+  return fmt::format(
+      "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n{}</Points>\n<Cells>\n{}{}{}</Cells>\n",
+      points.size() / 3, offsets.size(), array("position_mm", points, {"x", "y", "z"}),
+      array("connectivity", connectivity), array("offsets", offsets), array("types", types));
+}
+
+// One value (or more) per material point of the panel: value(strand, point, out).
+template <class Value, int Dim, class Function>
+std::vector<Value> per_point(const Panel<Dim>& panel, const Function& value) {
+  std::vector<Value> values;
+  for (std::size_t s = 0; s < panel.strands.size(); ++s) {
+    for (std::size_t p = 0; p < panel.strands[s].size(); ++p) value(s, panel.strands[s], p, values);
+  }
+  return values;
+}
+
+// A function of one number per point, as per_point() wants it.
+template <class Value, class Function>
+auto single(const Function& number) {
+  return [number](std::size_t s, const auto& strand, std::size_t p, std::vector<Value>& out) {
+    out.push_back(static_cast<Value>(number(s, strand, p)));
+  };
+}
+
+template <int Dim>
+std::string cell_data(const Panel<Dim>& panel) {
+  const auto stress = [](std::size_t, const Strand<Dim>& strand, std::size_t p, std::vector<float>& out) {
+    const Tensor<3> sigma = cauchy_stress<Dim>(strand.F[p], strand.stress[p]);
+    for (const auto& [i, j] : {std::pair{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}) {
+      out.push_back(static_cast<float>(sigma(i, j)));
+    }
+  };
+  const auto velocity = [](std::size_t, const Strand<Dim>& strand, std::size_t p, std::vector<float>& out) {
+    for (int d = 0; d < 3; ++d) out.push_back(d < Dim ? static_cast<float>(strand.v[p][d] * 1e-3) : 0.0F);
+  };
+  const auto density = single<float>([](auto, const auto& strand, auto p) { return density_kg_m3(strand, p); });
+  const auto angle = single<float>([](auto, const auto& strand, auto p) { return grain_angle_deg<Dim>(strand.F[p]); });
+  const auto plastic = single<float>([](auto, const auto& strand, auto p) { return strand.plastic[p]; });
+  const auto in_plane = single<float>([](auto, const auto& strand, auto) { return strand.angle_deg; });
+  const auto id = single<std::int32_t>([](auto s, const auto&, auto) { return s; });
+  const auto row = single<std::int32_t>([](auto, const auto& strand, auto) { return strand.row; });
+  return "<CellData Scalars=\"density_kg_m3\">\n" + array("density_kg_m3", per_point<float>(panel, density)) +
+         array("grain_angle_deg", per_point<float>(panel, angle)) +
+         array("stress_MPa", per_point<float>(panel, stress), {"XX", "YY", "ZZ", "XY", "YZ", "XZ"}) +
+         array("plastic_strain", per_point<float>(panel, plastic)) +
+         array("velocity_m_s", per_point<float>(panel, velocity), {"x", "y", "z"}) +
+         array("strand_id", per_point<std::int32_t>(panel, id)) + array("row", per_point<std::int32_t>(panel, row)) +
+         array("angle_deg", per_point<float>(panel, in_plane)) + "</CellData>\n";
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string vtk_file(const char* type, const std::string& body) {
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n<!-- strandlab {} -->\n"
+      "<VTKFile type=\"{}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n{}</VTKFile>\n",
+      version(), type, body);
+}
+
+}  // namespace
+
+template <int Dim>
+void write_vtu(const Panel<Dim>& panel, const std::filesystem::path& file) {
+  const std::string grid = "<UnstructuredGrid>\n" + mesh(panel) + cell_data(panel) + "</Piece>\n</UnstructuredGrid>\n";
+  write_atomically(file, vtk_file("UnstructuredGrid", grid));
+}
+
+template void write_vtu(const Panel<2>&, const std::filesystem::path&);
+template void write_vtu(const Panel<3>&, const std::filesystem::path&);
+
+void write_pvd(const std::vector<PvdEntry>& entries, const std::filesystem::path& file) {
+  std::string body = "<Collection>\n";
+  for (const auto& entry : entries) {
+    body += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.compaction, escaped(entry.file));
+  }
+  write_atomically(file, vtk_file("Collection", body + "</Collection>\n"));
+}
+
+}  // namespace strandlab::io

@@ -1,0 +1,35 @@
+// Line plots and histograms by gnuplot. Used by plots.cpp.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace strandlab::report {
+
+struct Curve {
+  std::string name;  // in the key; empty: none
+  std::vector<double> x, y;
+};
+
+enum class CurveStyle { kLines, kLinesAndPoints, kSteps };
+
+struct Plot {
+  std::string title, x_label, y_label;
+  std::string key_title;
+  CurveStyle style = CurveStyle::kLines;
+  double x_low = 0, x_high = 1;  // ends of the axis; y starts at 0
+  std::vector<Curve> curves;
+};
+
+// The gnuplot program text of a plot that prints a PNG to its standard output. Curves keep their colour from the first
+// (dark) to the last (light) of a sequential map.
+std::string gnuplot_script(const Plot& plot);
+
+// Draws a plot as PNG, replacing `png` atomically. Returns a sentence for the log where gnuplot is missing or fails;
+// throws as io::write_atomically(). `program` is the gnuplot to run.
+std::optional<std::string> draw(const Plot& plot, const std::filesystem::path& png,
+                                const std::string& program = "gnuplot");
+
+}  // namespace strandlab::report

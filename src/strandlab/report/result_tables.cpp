@@ -1,0 +1,25 @@
+#include "strandlab/report/result_tables.hpp"
+
+namespace strandlab::report {
+
+io::CsvTable press_table(const std::vector<press::Record>& records) {
+  io::CsvTable table({"compaction", "time_ms", "stress_MPa", "force_top_N", "force_bottom_N", "kinetic_mJ",
+                      "internal_mJ", "plastic_mJ", "elastic_mJ", "friction_mJ", "contact_mJ", "filter_mJ",
+                      "platen_work_mJ"});
+  for (const auto& r : records) {
+    table.add_row({r.compaction, r.time_ms, r.stress_MPa, r.force_top_N, r.force_bottom_N, r.kinetic_mJ,
+                   r.internal_mJ(), r.plastic_mJ, r.elastic_mJ, r.friction_mJ, r.contact_mJ, r.filter_mJ,
+                   r.platen_work_mJ});
+  }
+  return table;
+}
+
+io::CsvTable moduli_table(const std::vector<PanelModulus>& moduli) {
+  io::CsvTable table({"compaction", "test", "compliance_t_mm_per_MPa", "modulus_MPa", "reaction_modulus_MPa"});
+  for (const auto& m : moduli) {
+    table.add_row({m.compaction, m.test, m.compliance_t_mm_per_MPa, m.modulus_MPa, m.reaction_modulus_MPa});
+  }
+  return table;
+}
+
+}  // namespace strandlab::report
