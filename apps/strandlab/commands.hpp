@@ -13,5 +13,7 @@ void add_mat(CLI::App& app);
 void add_press(CLI::App& app);
 void add_test(CLI::App& app);
 void add_run(CLI::App& app);
+void add_theory(CLI::App& app);
+void add_bondline(CLI::App& app);
 
 }  // namespace strandlab::app

@@ -45,6 +45,8 @@ int run(int argc, char** argv) {
   strandlab::app::add_press(app);
   strandlab::app::add_test(app);
   strandlab::app::add_run(app);
+  strandlab::app::add_theory(app);
+  strandlab::app::add_bondline(app);
   if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);
   try {
     app.parse(argc, argv);

@@ -68,6 +68,7 @@ nlohmann::json summary(const press::Outcome<2>& outcome, std::size_t particles, 
           {"ns_per_particle_step_by_phase", phases(outcome.timing, particle_steps)},
           {"fields_per_node", outcome.timing.fields_per_node},
           {"plastic_fraction", outcome.timing.plastic_fraction},
+          {"engine_bytes", outcome.bytes},
           {"warnings", outcome.warnings}};
 }
 
@@ -153,8 +154,9 @@ void do_press(Journey& journey, Console& console) {
   folder.save();
   for (const auto* name : {"panels", "paraview", "pictures"}) fs::create_directories(folder.file(name));
 
-  const auto outcome = press::press(journey.panel, journey.c.schedule, engine_options(journey.c),
-                                    make_sink(journey, store, console), resume);
+  const auto setup = press::setup(journey.panel, journey.c.grid, journey.c.sides, engine_options(journey.c));
+  const auto outcome =
+      press::press(journey.panel, journey.c.schedule, setup, make_sink(journey, store, console), resume);
   for (const auto& warning : outcome.warnings) console.warn(warning);
   report::press_table(outcome.records).write(folder.file("press.csv"));
   write_report(journey, outcome.records, console);

@@ -11,6 +11,8 @@
 namespace strandlab::io {
 namespace {
 
+constexpr int kPointsPerCell = 2;  // per axis, as press::Resolution has it
+
 std::vector<std::string> kind_names(const Case& c) {
   std::vector<std::string> names;
   for (const auto& kind : c.kinds) names.push_back(kind.name);
@@ -81,8 +83,8 @@ Panel<2> make_panel(const Case& c, const mat::Mat& mat) {
   // A strand of a mat file may name any material of the case, also one that no kind uses.
   for (const auto& user : c.materials) kinds.push_back({"material " + user.material.name, user.material, 0});
   const double cell_height = mat.layer_thickness_mm / c.grid.cells_through_strand;
-  return strandlab::make_panel(mat, kinds, cell_height * c.grid.cell_aspect / c.grid.points_per_cell,
-                               c.grid.cells_through_strand * c.grid.points_per_cell);
+  return strandlab::make_panel(mat, kinds, cell_height * c.grid.cell_aspect / kPointsPerCell,
+                               c.grid.cells_through_strand * kPointsPerCell);
 }
 
 }  // namespace strandlab::io

@@ -28,13 +28,6 @@ struct MaterialSettings {
   wood::Material material;
 };
 
-struct GridSettings {
-  int cells_through_strand = 3;
-  int points_per_cell = 2;  // per axis
-  double cell_aspect = 2;   // length of a cell over its height
-  bool follow_platens = true;
-};
-
 // The defaults are the main job: an OSB mat of 20 rows pressed to 40 %.
 struct Case {
   Case();
@@ -48,7 +41,7 @@ struct Case {
   std::vector<MaterialSettings> materials;
   press::Schedule schedule;
   mpm::Side sides = mpm::Side::kRoller;
-  GridSettings grid;
+  press::Resolution grid;
   mpm::Options mpm;  // its thread count is set from `threads` when a run starts
   vtest::Options test;
   int threads = 0;  // 0: all cores

@@ -262,9 +262,6 @@ void add_grid_keys(std::vector<Key>& t) {
       "grid.cells_through_strand", "", {.lo = 1, .hi = 32}, "cells through the thickness of a strand",
       [](auto& c) -> auto& { return c.grid.cells_through_strand; }));
   t.push_back(key(
-      "grid.points_per_cell", "", {.lo = 1, .hi = 4}, "material points per cell along each axis",
-      [](auto& c) -> auto& { return c.grid.points_per_cell; }));
-  t.push_back(key(
       "grid.cell_aspect", "", {.lo = 0.25, .hi = 8}, "length of a cell over its height",
       [](auto& c) -> auto& { return c.grid.cell_aspect; }));
   t.push_back(key(

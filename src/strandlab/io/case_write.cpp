@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cstdint>
 
 #include "strandlab/io/case_keys.hpp"
@@ -68,6 +69,11 @@ std::string cell(std::string text) {
   return text;
 }
 
+std::string sentence(std::string text) {
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text + ".";
+}
+
 }  // namespace
 
 std::string resolved_text(const Case& c) {
@@ -109,8 +115,8 @@ std::string reference_text() {
   for (const auto& section : sections()) {
     const auto title = with_name(section.path, "NAME");
     text += fmt::format(
-        "\n## [{}]\n\n{}.\n\n| key | type | unit | allowed | default | meaning |\n|---|---|---|---|---|---|\n", title,
-        section.help);
+        "\n## [{}]\n\n{}\n\n| key | type | unit | allowed | default | meaning |\n|---|---|---|---|---|---|\n", title,
+        sentence(section.help));
     for_each_key(section.path, [&](const Key& key) {
       const auto example = section.path == "materials.*"
                                ? (name_of(key) == "base" ? Value(std::string()) : Value(0.0))

@@ -56,7 +56,7 @@ void refuse_unwritable(const fs::path& folder, double needed_bytes) {
     throw InputError(
         fmt::format("{}: cannot make this run folder: {} is not a folder", folder.string(), existing.string()));
   }
-  if (::access(existing.c_str(), W_OK | X_OK) != 0) {
+  if (::faccessat(AT_FDCWD, existing.c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
     throw InputError(fmt::format("{}: cannot write to {}: {}; choose another run folder with -o", folder.string(),
                                  existing.string(), std::strerror(errno)));
   }

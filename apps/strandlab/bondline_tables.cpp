@@ -1,0 +1,121 @@
+#include "bondline_tables.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace strandlab::app {
+namespace {
+
+using Cells = std::vector<io::CsvCell>;
+
+io::CsvCell cell(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? io::CsvCell(*value) : io::CsvCell(std::string());
+}
+
+io::CsvCell cell(int value) {
+  return static_cast<long long>(value);
+}
+
+// D_t of a compliance; none for a perfect bond.
+std::optional<double> inverse(const std::optional<double>& compliance) {
+  return compliance && *compliance != 0 ? std::optional(1 / *compliance) : std::nullopt;
+}
+
+bool from_records(const bondline::Analysis& analysis) {
+  return std::any_of(analysis.specimens.begin(), analysis.specimens.end(),
+                     [](const auto& s) { return s.specimen.slope.has_value(); });
+}
+
+void add_result(const bondline::Evaluated& s, Cells& cells) {
+  const bool known = s.compliance_t.has_value();
+  const auto if_known = [&](double value) { return cell(known ? std::optional(value) : std::nullopt); };
+  cells.insert(cells.end(), {cell(s.compliance_t), if_known(s.uncertainty.standard_mm_per_MPa),
+                             if_known(s.uncertainty.low_mm_per_MPa), if_known(s.uncertainty.high_mm_per_MPa),
+                             cell(inverse(s.compliance_t)), if_known(s.ratio), if_known(s.sensitivity),
+                             cell(s.specimen.k_N_per_mm), if_known(s.uncertainty.k_equivalent),
+                             s.specimen.geometry.l_mm, bondline::rigid_limit_N_per_mm(s.specimen.geometry),
+                             bondline::lower_bound_mm_per_MPa(s.specimen.geometry), s.excluded});
+}
+
+void add_slope(const bondline::Slope& slope, Cells& cells) {
+  const bool known = slope.problem.empty();
+  const auto if_known = [&](double value) { return cell(known ? std::optional(value) : std::nullopt); };
+  cells.insert(cells.end(), {if_known(slope.r_squared), cell(slope.low_N), cell(slope.high_N), cell(slope.points),
+                             if_known(slope.toe_mm), fmt::format("{}", fmt::join(slope.flags, "; "))});
+}
+
+}  // namespace
+
+io::CsvTable specimen_table(const bondline::Analysis& analysis) {
+  std::vector<std::string> columns{"id",
+                                   "compliance_t_mm_per_MPa",
+                                   "standard_uncertainty_mm_per_MPa",
+                                   "low_mm_per_MPa",
+                                   "high_mm_per_MPa",
+                                   "D_t_MPa_per_mm",
+                                   "compliance_ratio",
+                                   "sensitivity",
+                                   "k_N_per_mm",
+                                   "k_equivalent_uncertainty",
+                                   "l_mm",
+                                   "rigid_limit_N_per_mm",
+                                   "lower_bound_mm_per_MPa",
+                                   "excluded",
+                                   "group"};
+  const bool records = from_records(analysis);
+  if (records)
+    columns.insert(columns.end(), {"r_squared", "window_low_N", "window_high_N", "window_points", "toe_mm", "flags"});
+  for (const auto& factor : analysis.factors) {
+    const bool taken = std::find(columns.begin(), columns.end(), factor) != columns.end();
+    columns.push_back(taken ? "given_" + factor : factor);
+  }
+  io::CsvTable table(columns);
+  for (const auto& s : analysis.specimens) {
+    Cells cells{s.specimen.id};
+    add_result(s, cells);
+    cells.emplace_back(s.group);
+    if (records) add_slope(*s.specimen.slope, cells);
+    cells.insert(cells.end(), s.specimen.factors.begin(), s.specimen.factors.end());
+    table.add_row(cells);
+  }
+  return table;
+}
+
+io::CsvTable group_table(const bondline::Analysis& analysis) {
+  io::CsvTable table({"group", "within", "n", "excluded", "compliance_t_mm_per_MPa", "sd_mm_per_MPa", "low_mm_per_MPa",
+                      "high_mm_per_MPa", "t", "p", "mean_k_N_per_mm", "compliance_t_of_mean_k_mm_per_MPa"});
+  for (const auto& g : analysis.groups) {
+    const auto& c = g.compliance_t;
+    table.add_row({g.name, g.family, cell(c.n), cell(g.excluded), cell(c.mean), cell(c.sd), cell(c.low), cell(c.high),
+                   cell(c.t), cell(c.p), cell(g.mean_k_N_per_mm), cell(g.compliance_of_mean)});
+  }
+  return table;
+}
+
+io::CsvTable comparison_table(const bondline::Analysis& analysis) {
+  io::CsvTable table({"within", "test", "first", "second", "difference_mm_per_MPa", "low_mm_per_MPa", "high_mm_per_MPa",
+                      "statistic", "df1", "df2", "p", "p_holm"});
+  const io::CsvCell none = std::string();
+  for (const auto& family : analysis.families) {
+    if (!family.anova) continue;
+    const auto& a = *family.anova;
+    const auto& w = *family.welch;
+    table.add_row({family.name, "anova F", none, none, none, none, none, cell(a.F), cell(a.df_between),
+                   cell(a.df_within), cell(a.p), none});
+    table.add_row({family.name, "Welch anova F", none, none, none, none, none, cell(w.F), cell(w.df_between),
+                   cell(w.df_within), cell(w.p), none});
+    for (const auto& pair : family.pairs)
+      table.add_row({family.name, "Welch t, Holm", analysis.groups[family.groups[pair.first]].name,
+                     analysis.groups[family.groups[pair.second]].name, cell(pair.difference), cell(pair.low),
+                     cell(pair.high), cell(pair.t), cell(pair.df), none, cell(pair.p), cell(pair.p_holm)});
+  }
+  return table;
+}
+
+}  // namespace strandlab::app

@@ -1,0 +1,110 @@
+// strandlab theory: closed-form estimates of a panel, without a simulation.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "strandlab/core/error.hpp"
+#include "strandlab/io/case.hpp"
+#include "strandlab/io/csv.hpp"
+#include "strandlab/theory/estimate.hpp"
+#include "theory_rows.hpp"
+
+namespace strandlab::app {
+namespace {
+
+struct Arguments {
+  std::string file, csv, off_axis = "uncoupled";
+  std::vector<std::string> overrides;
+  std::vector<double> compactions, compliances;
+  theory::Question question;
+};
+
+// The question a case asks, with what the flags change.
+theory::Question question_of(const Arguments& a) {
+  const auto c = a.file.empty() ? io::ready_case("osb") : io::read_case(a.file, a.overrides);
+  if (a.file.empty() && !a.overrides.empty()) throw InputError("--set changes keys of a case; give a case file too");
+  theory::Question q = a.question;
+  q.rows = theory_rows(c);
+  q.row_thickness_mm = c.layer_thickness_mm;
+  q.compactions = a.compactions.empty() ? c.schedule.compactions : a.compactions;
+  q.compliances_t = a.compliances.empty() ? c.test.compliance_t_mm_per_MPa : a.compliances;
+  for (double& compliance : q.compliances_t) compliance = std::max(compliance, 0.0);  // as the virtual tests take it
+  q.off_axis = theory::off_axis_from_name(a.off_axis);
+  return q;
+}
+
+io::CsvTable table_of(const std::vector<theory::Estimate>& estimates) {
+  io::CsvTable table(
+      {"model", "compaction", "density_kg_m3", "compliance_t_mm_per_MPa", "strand_length_mm", "gap_mm", "modulus_MPa"});
+  for (const auto& e : estimates)
+    table.add_row({e.model, e.compaction, e.density_kg_m3,
+                   e.compliance_t ? io::CsvCell(*e.compliance_t) : io::CsvCell(std::string()), e.length_mm, e.gap_mm,
+                   e.modulus_MPa});
+  return table;
+}
+
+void print(const theory::Question& q, const std::vector<theory::Estimate>& estimates) {
+  fmt::print("{:<30}{:>6}{:>14}{:>14}{:>12}{:>9}{:>14}\n", "model", "C", "density kg/m3", "1/D_t mm/MPa", "length mm",
+             "gap mm", "modulus MPa");
+  for (const auto& e : estimates)
+    fmt::print("{:<30}{:>6.3g}{:>14.0f}{:>14}{:>12g}{:>9g}{:>14.0f}\n", e.model, e.compaction, e.density_kg_m3,
+               e.compliance_t ? fmt::format("{:g}", *e.compliance_t) : "", e.length_mm, e.gap_mm, e.modulus_MPa);
+  const auto core = std::find_if_not(q.rows.begin(), q.rows.end(), theory::runs_along);
+  if (core != q.rows.end())
+    fmt::print(
+        "random core of {}: quasi-isotropic laminate {:.0f}, mean over angles {:.0f}, the same in plane strain {:.0f} "
+        "MPa\n",
+        core->material.name, theory::quasi_isotropic_modulus_MPa(core->material),
+        theory::off_axis_average_MPa(core->material), theory::plane_strain_average_MPa(core->material));
+  for (const auto& model : theory::models()) {
+    const bool used =
+        std::any_of(estimates.begin(), estimates.end(), [&](const auto& e) { return e.model == model.name; });
+    if (used) fmt::print("{}: {}\n", model.name, model.validity);
+  }
+}
+
+void estimate(const Arguments& a) {
+  const auto q = question_of(a);
+  const auto estimates = theory::estimate(q);
+  if (a.csv == "-") {
+    fmt::print("{}", table_of(estimates).text());
+    return;
+  }
+  print(q, estimates);
+  if (!a.csv.empty()) table_of(estimates).write(a.csv);
+}
+
+}  // namespace
+
+void add_theory(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  auto* command = app.add_subcommand("theory", "closed-form estimates of a panel's density and moduli, at once");
+  auto& a = *arguments;
+  command->add_option("CASE", a.file, "case file (default: the ready OSB case)");
+  command->add_option("--set", a.overrides, "change a key of the case, key.path=value");
+  command->add_option("--compaction", a.compactions, "list (default: those of the case)")->delimiter(',');
+  command->add_option("--compliance-t", a.compliances, "1/D_t in mm/MPa, list (default: those of the case)")
+      ->delimiter(',');
+  command->add_option("--strand-length-mm", a.question.lengths_mm, "of strands along the panel, list")->delimiter(',');
+  command->add_option("--gap-mm", a.question.gaps_mm, "between strands along the panel, list")->delimiter(',');
+  command->add_option("--density-kg-m3", a.question.densities_kg_m3, "panel densities, list")->delimiter(',');
+  command
+      ->add_option("--matrix-modulus-MPa", a.question.matrix.modulus_MPa,
+                   "of what fills the gaps in the shear-lag model")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--matrix-shear-MPa", a.question.matrix.shear_MPa, "its shear modulus")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--offaxis", a.off_axis, "rows off the grain: uncoupled (free to shear) or exact (plane strain)")
+      ->capture_default_str();
+  command->add_option("--csv", a.csv, "also write a table to this file; - prints it instead");
+  command->callback([arguments] { estimate(*arguments); });
+}
+
+}  // namespace strandlab::app

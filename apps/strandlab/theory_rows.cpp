@@ -1,0 +1,48 @@
+#include "theory_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "strandlab/core/error.hpp"
+
+namespace strandlab::app {
+namespace {
+
+theory::Row row_of_kind(const std::vector<StrandKind>& kinds, const std::string& name) {
+  const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const StrandKind& k) { return k.name == name; });
+  if (kind == kinds.end()) throw InputError(fmt::format("the case has no strand kind \"{}\"", name));
+  return {kind->material, kind->angle_deg, {}};
+}
+
+mat::StrandStatistics statistics_of(const mat::Layer& layer, double length_mm) {
+  double wood = 0;
+  for (const auto& strand : layer.strands) wood += strand.x1_mm - strand.x0_mm;
+  if (wood >= length_mm) return {0, 0, 0, 0};
+  if (layer.strands.empty()) return {0, 0, length_mm, 0};
+  const double mean = wood / static_cast<double>(layer.strands.size());
+  return {mean, 0, mean * (length_mm / wood - 1), 0};
+}
+
+}  // namespace
+
+std::vector<theory::Row> theory_rows(const io::Case& c) {
+  const auto kinds = io::strand_kinds(c);
+  std::vector<theory::Row> rows;
+  if (c.mat_file.empty()) {
+    for (const auto& given : io::layup(c).rows) {
+      rows.push_back(row_of_kind(kinds, given.kind));
+      rows.back().statistics = given.statistics;
+    }
+    return rows;
+  }
+  const auto mat = io::make_mat(c);
+  for (const auto& layer : mat.layers) {
+    rows.push_back(row_of_kind(kinds, layer.role));
+    rows.back().statistics = statistics_of(layer, mat.length_mm);
+  }
+  return rows;
+}
+
+}  // namespace strandlab::app

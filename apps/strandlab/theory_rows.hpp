@@ -1,0 +1,16 @@
+// A case as the closed-form models see it.
+#pragma once
+
+#include <vector>
+
+#include "strandlab/io/case.hpp"
+#include "strandlab/theory/models.hpp"
+
+namespace strandlab::app {
+
+// Rows bottom to top with material, grain angle and strand statistics: those of the case's layup, or, for a case with a
+// mat file, the mean strand length of each of its rows and the gap that gives the row's solid fraction. Throws as
+// io::layup() and io::make_mat().
+std::vector<theory::Row> theory_rows(const io::Case& c);
+
+}  // namespace strandlab::app

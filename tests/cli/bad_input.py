@@ -1,0 +1,168 @@
+"""Each kind of bad input: one clear message, exit code 2, nothing written."""
+
+import json
+import os
+import pathlib
+import resource
+import signal
+
+from program import SOURCE, DONE, check, expect_bad_input, files, finish, scratch, strandlab
+
+MAT = {"length_mm": 10, "layer_thickness_mm": 0.8, "layers": [{"role": "surface", "strands": [{"x0": 0, "x1": 4}, {"x0": 5, "x1": 10}]}]}
+
+
+def usage():
+    expect_bad_input([], ["subcommand is required"])
+    expect_bad_input(["chek", "osb.toml"], ["unknown command \"chek\"", "did you mean \"check\"?"])
+    expect_bad_input(["check"], ["CASE is required"])
+    expect_bad_input(["check", "osb.toml", "--frce"], ["--frce"])
+    expect_bad_input(["check", "osb.toml", "other.toml"], ["other.toml"])
+    expect_bad_input(["init", "obs"], ["no ready case \"obs\"", "did you mean \"osb\"?"])
+    expect_bad_input(["check", "none.toml"], ["none.toml: no such case file"])
+    check(strandlab("--version").stdout.startswith("strandlab "), "--version")
+    check(strandlab("--help").returncode == DONE, "--help exits with 0")
+
+
+CASES = [
+    ("[press]\nsped_m_s = 3", [":2:", "unknown key press.sped_m_s", "did you mean speed_m_s?", "compactions"]),
+    ("[pres]\nspeed_m_s = 3", [":1:", "unknown section [pres]", "did you mean press?"]),
+    ("[press]\nspeed_m_s = \"fast\"", [":2:", "press.speed_m_s = \"fast\"", "must be a number"]),
+    ("[mat]\nlayer_thickness_mm = 0", [":2:", "mat.layer_thickness_mm = 0 mm", "greater than 0"]),
+    ("[materials.m]\ndensity_kg_m3 = -350", [":2:", "materials.m.density_kg_m3 = -350", "greater than 0"]),
+    ("[materials.m]\nE_L_MPa = 0", [":2:", "materials.m.E_L_MPa = 0 MPa", "greater than 0"]),
+    ("[kinds.core]\nlength_sd_mm = 26", [":2:", "kinds.core.length_sd_mm = 26", "length_mm = 25"]),
+    ("[press]\ncompactions = [0, 1.0]", [":2:", "press.compactions", "less than 1"]),
+    ("[press]\ncompactions = [0.3, 0.2]", [":2:", "press.compactions", "increasing"]),
+    ("[materials.m]\nnu_TR = 0.7", ["[materials.m]", "not positive definite", "nu_TR"]),
+    ("[materials.m]\nY_T_MPa = 4", ["[materials.m]", "not positive semi-definite", "Y_T"]),
+    ("[press\n", [":1:", "not valid TOML"]),
+]
+
+
+def case_files():
+    for text, parts in CASES:
+        pathlib.Path("panel.toml").write_text(text, encoding="utf-8")
+        for command in ("check", "run"):
+            expect_bad_input([command, "panel.toml"], ["panel.toml"] + parts)
+
+
+def overrides():
+    pathlib.Path("panel.toml").write_text("", encoding="utf-8")
+    expect_bad_input(["mat", "panel.toml", "--set", "press"], ["--set press", "key.path=value"])
+    expect_bad_input(["mat", "panel.toml", "--set", "press.compactions=[0"], ["--set press.compactions=[0", "key.path=value"])
+    expect_bad_input(["mat", "panel.toml", "--set", "pres.speed_m_s=3"], ["did you mean press?"])
+    expect_bad_input(["mat", "panel.toml", "--set", "press.speed_m_s=-3"], ["press.speed_m_s = -3 m/s"])
+    expect_bad_input(["mat", "panel.toml", "--set", "mat.length_mm=1e9"], ["memory"])
+
+
+def changed(**layer):
+    mat = json.loads(json.dumps(MAT))
+    mat["layers"][0].update(layer)
+    return json.dumps(mat)
+
+
+MATS = [
+    (changed(strands=[{"x0": 0, "x1": 6}, {"x0": 5, "x1": 10}]), ["layer 1", "overlap"]),
+    (changed(strands=[{"x0": 4, "x1": 4}]), ["layer 1", "x1"]),
+    (changed(role="surfac"), ["surfac", "surface"]),
+    (changed(strands=[{"x0": 0, "x1": float("nan")}]), ["mat.json"]),
+    (changed(strands=[{"x0": 0, "x1": 1e999}]), ["mat.json"]),
+    ("{\"length_mm\": 10", ["mat.json"]),
+    ("", ["mat.json"]),
+]
+
+
+def mat_files():
+    pathlib.Path("panel.toml").write_text("[mat]\nfile = \"mat.json\"\n", encoding="utf-8")
+    expect_bad_input(["run", "panel.toml"], ["mat.json"])
+    for text, parts in MATS:
+        pathlib.Path("mat.json").write_text(text, encoding="utf-8")
+        for command in ("check", "mat"):
+            expect_bad_input([command, "panel.toml"], ["mat.json"] + parts)
+
+
+def run_folders():
+    pathlib.Path("panel.toml").write_text("[mat]\nlength_mm = 5\nrows = [\"surface*2\"]\n", encoding="utf-8")
+    check(strandlab("mat", "panel.toml", "-o", "run").returncode == DONE, "mat")
+    expect_bad_input(["mat", "panel.toml", "-o", "run", "--set", "run.seed=2"],
+                     ["run", "another case", "run.seed = 1 there, 2 here", "--force"])
+    pathlib.Path("letters").mkdir()
+    pathlib.Path("letters/letter.txt").write_text("dear", encoding="utf-8")
+    expect_bad_input(["mat", "panel.toml", "-o", "letters"], ["letters", "no strandlab run"])
+    expect_bad_input(["mat", "panel.toml", "-o", "letters", "--force"], ["letters", "no strandlab run"])
+    expect_bad_input(["mat", "panel.toml", "-o", "panel.toml/run"], ["panel.toml/run", "is not a folder"])
+    expect_bad_input(["test", "panel.toml", "-o", "run"], ["run", "no pressed panel"])
+    pathlib.Path("run/mat.json").write_text("{}", encoding="utf-8")
+    expect_bad_input(["mat", "panel.toml", "-o", "run"], ["run/mat.json", "not the mat of this case"])
+
+
+def hdf5_files():
+    """A pressed panel that is truncated, foreign or missing; a damaged checkpoint."""
+    pathlib.Path("panel.toml").write_text("[mat]\nlength_mm = 5\nrows = [\"surface*2\"]\n[press]\ncompactions = [0]\n", encoding="utf-8")
+    result = strandlab("press", "panel.toml", "-o", "pressed")
+    check(result.returncode == DONE, "press: " + result.stderr)
+    panel = pathlib.Path("pressed/panels/panel_0.h5")
+    whole = panel.read_bytes()
+    panel.write_bytes(whole[: len(whole) // 2])
+    expect_bad_input(["test", "panel.toml", "-o", "pressed"], ["panel_0.h5"])
+    panel.write_bytes(b"not a panel")
+    expect_bad_input(["test", "panel.toml", "-o", "pressed"], ["panel_0.h5"])
+    panel.unlink()
+    expect_bad_input(["test", "panel.toml", "-o", "pressed"], ["panel_0.h5"])
+    panel.write_bytes(whole)
+    check(strandlab("test", "panel.toml", "-o", "pressed").returncode == DONE, "test of the whole file")
+
+    record = json.loads(pathlib.Path("pressed/run.json").read_text(encoding="utf-8"))
+    record["steps"]["press"]["finished"] = False  # as if it had been killed
+    del record["steps"]["test"]
+    pathlib.Path("pressed/run.json").write_text(json.dumps(record), encoding="utf-8")
+    pathlib.Path("pressed/moduli.csv").unlink()
+    for name in ("checkpoint.h5", "checkpoint.previous.h5"):
+        pathlib.Path("pressed", name).write_bytes(whole[:1000])
+    result = expect_no_new_results(["press", "panel.toml", "-o", "pressed"])
+    check("checkpoint" in result.stderr, "the message names the checkpoint: " + result.stderr)
+
+
+def expect_no_new_results(arguments):
+    """Like expect_bad_input for a run folder whose case is known: run.json may be written again."""
+    before = {name: text for name, text in files().items() if not name.endswith("run.json")}
+    result = strandlab(*arguments)
+    check(result.returncode == 2, f"{arguments}: exit code {result.returncode}: {result.stderr}")
+    after = {name: text for name, text in files().items() if not name.endswith("run.json")}
+    check(after == before, f"{arguments}: wrote files")
+    return result
+
+
+def no_permission():
+    """A folder that may not be written: as nobody where the test runs as root."""
+    pathlib.Path("panel.toml").write_text("[mat]\nlength_mm = 5\n", encoding="utf-8")
+    pathlib.Path("closed").mkdir()
+    os.chmod("closed", 0o555)
+    os.chmod(".", 0o755)
+    nobody = (lambda: os.setuid(65534)) if os.geteuid() == 0 else None
+    expect_bad_input(["mat", "panel.toml", "-o", "closed/run"], ["closed/run", "ermission denied"], preexec_fn=nobody)
+
+
+def no_space():
+    """Files that cannot grow: writes fail as on a full disk, and leave no half file."""
+    pathlib.Path("panel.toml").write_text("[mat]\nlength_mm = 50\n", encoding="utf-8")
+
+    def full():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+
+    result = strandlab("mat", "panel.toml", "-o", "full", preexec_fn=full)
+    check(result.returncode in (2, 3), f"full disk: exit code {result.returncode}")
+    check("full/" in result.stderr, "full disk: the message names the file: " + result.stderr)
+    check(not any(files("full").values()), f"full disk: left {list(files('full'))}")
+
+
+TESTS = [usage, case_files, overrides, mat_files, run_folders, hdf5_files, no_permission, no_space]
+
+for test in TESTS:
+    with scratch():
+        strandlab_case = strandlab("init", "osb")
+        pathlib.Path("osb.toml").write_text(strandlab_case.stdout, encoding="utf-8")
+        test()
+check((SOURCE / "cases" / "osb.toml").exists(), "cases/osb.toml")
+finish()

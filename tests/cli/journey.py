@@ -1,0 +1,150 @@
+"""init | check, --set, and a small run from the mat to the moduli, killed at any moment and on any number of threads."""
+
+import csv
+import json
+import pathlib
+import random
+import subprocess
+import time
+
+from program import DONE, PROGRAM, SOURCE, check, files, finish, scratch, strandlab
+
+# Two rows of 5 mm pressed to 4 %: a second of work.
+CASE = """[mat]
+length_mm = 5
+rows = ["surface", "core"]
+[kinds.core]
+length_mm = 2
+length_sd_mm = 0.2
+gap_mm = 1
+gap_sd_mm = 0.2
+[press]
+speed_m_s = 8
+compactions = [0, 0.02, 0.04]
+[glue]
+compliance_t_mm_per_MPa = [0, 0.0105]
+[run]
+checkpoint_interval_s = 0.01
+"""
+
+# What must not depend on kills and threads, to the last bit.
+RESULTS = ("mat.json", "press.csv", "moduli.csv", "morphology.csv", "histograms.csv")
+
+
+def results(folder):
+    kept = {name: pathlib.Path(folder, name).read_bytes() for name in RESULTS}
+    kept.update({p.name: p.read_bytes() for p in pathlib.Path(folder, "paraview").iterdir()})
+    kept.update({p.name: p.read_bytes() for p in pathlib.Path(folder, "panels").iterdir()})
+    return kept
+
+
+def init_and_check():
+    for name in ("osb", "osl", "plywood", "lvl"):
+        made = strandlab("init", name)
+        check(made.returncode == DONE, f"init {name}")
+        check((SOURCE / "cases" / f"{name}.toml").read_text(encoding="utf-8") == made.stdout, f"cases/{name}.toml is init {name}")
+        pathlib.Path("a.toml").write_text(made.stdout, encoding="utf-8")
+        first = strandlab("check", "a.toml")
+        pathlib.Path("b.toml").write_text(first.stdout, encoding="utf-8")
+        check(first.returncode == DONE, f"check of init {name}: {first.stderr}")
+        check(strandlab("check", "b.toml").stdout == first.stdout, f"check of check of {name}")
+        for word in ("particles:", "cells:", "steps:", "memory:", "run time"):
+            check(word in first.stdout, f"check {name} says {word}")
+    page = (SOURCE / "docs" / "cases.md").read_text(encoding="utf-8")
+    check(strandlab("init", "--reference").stdout == page, "docs/cases.md is init --reference")
+
+
+def overrides():
+    pathlib.Path("a.toml").write_text(CASE, encoding="utf-8")
+    shown = strandlab("check", "a.toml", "--set", "press.speed_m_s=2", "--set", "press.compactions=[0]", "--set", "press.sides=free",
+                      "--set", "test.kinds=[tension]", "--set", "run.threads=1", "--set", "glue.compliance_n_mm_per_MPa=1e-3").stdout
+    for line in ("speed_m_s = 2\n", "compactions = [0]\n", "sides = \"free\"\n", "kinds = [\"tension\"]\n", "threads = 1\n",
+                 "compliance_n_mm_per_MPa = 0.001\n"):
+        check(line in shown, f"--set gives {line!r}")
+    mat = SOURCE / "tests" / "data" / "reference" / "lvl.json"
+    shown = strandlab("check", "a.toml", "--set", f"mat.file={mat}").stdout
+    check(f"file = \"{mat}\"" in shown, "--set mat.file")
+
+
+def single_steps():
+    """mat, press and test one by one end with the same bits as run; an existing result is never replaced unasked."""
+    pathlib.Path("a.toml").write_text(CASE, encoding="utf-8")
+    for command in ("mat", "press", "test"):
+        result = strandlab(command, "a.toml", "-o", "steps")
+        check(result.returncode == DONE, f"{command}: {result.stderr}")
+    result = strandlab("run", "a.toml")
+    check(result.returncode == DONE, f"run: {result.stderr}")
+    check("\r" not in result.stdout, "plain lines where stdout is not a terminal")
+    check(results("steps") == results("runs/a"), "mat, press, test give the bits of run")
+    before = files("runs/a")
+    again = strandlab("run", "a.toml")
+    check(again.returncode == DONE and "finished" in again.stdout, "a finished run says so")
+    check({k: v for k, v in files("runs/a").items() if not k.endswith("run.json")} ==
+          {k: v for k, v in before.items() if not k.endswith("run.json")}, "a finished run is left alone")
+    forced = strandlab("test", "a.toml", "--set", "glue.compliance_t_mm_per_MPa=[0.0105]", "--force")
+    check(forced.returncode == DONE, f"test --force: {forced.stderr}")
+    check(len(read_csv("runs/a/moduli.csv")) == 3 * 2, "test --force with other glue keeps the pressed panels")
+
+
+def read_csv(name):
+    with open(name, encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+def run_folder():
+    """The files and columns that scripts rely on."""
+    pathlib.Path("a.toml").write_text(CASE, encoding="utf-8")
+    check(strandlab("run", "a.toml", "-o", "out").returncode == DONE, "run -o out")
+    press = read_csv("out/press.csv")
+    for column in ("compaction", "time_ms", "stress_MPa", "force_top_N", "force_bottom_N", "kinetic_mJ", "internal_mJ", "plastic_mJ"):
+        check(column in press[0], f"press.csv has {column}")
+    check(abs(float(press[-1]["compaction"]) - 0.04) < 0.002, "press.csv goes to the last compaction")
+    moduli = read_csv("out/moduli.csv")
+    for column in ("compaction", "test", "compliance_t_mm_per_MPa", "modulus_MPa"):
+        check(column in moduli[0], f"moduli.csv has {column}")
+    check(len(moduli) == 3 * 2 * 2, f"moduli.csv has a line per compaction, test and compliance: {len(moduli)}")
+    # A surface strand (E_L = 9936 MPa) over a gapped core strand: between half of its modulus and all of it.
+    tension = [float(m["modulus_MPa"]) for m in moduli if m["test"] == "tension"]
+    check(all(2000 < e < 12000 for e in tension), f"tension moduli {tension}")
+    record = json.loads(pathlib.Path("out/run.json").read_text(encoding="utf-8"))
+    for key in ("strandlab", "git", "seed", "machine"):
+        check(key in record, f"run.json has {key}")
+    for key in ("wall_s", "particle_steps_per_s", "ns_per_particle_step", "ns_per_particle_step_by_phase"):
+        check(key in record["steps"]["press"], f"run.json has press {key}")
+    for name in ("case.toml", "log.txt", "paraview/panel.pvd", "panels/panel_0.04.h5", "pictures/grain_angle_0.04.png",
+                 "pictures/density_0.04.png"):
+        check(pathlib.Path("out", name).stat().st_size > 0, f"run folder has {name}")
+
+
+def threads():
+    pathlib.Path("a.toml").write_text(CASE, encoding="utf-8")
+    for count in (1, 2, 3):
+        result = strandlab("run", "a.toml", "-o", f"t{count}", "--set", f"run.threads={count}")
+        check(result.returncode == DONE, f"{count} threads: {result.stderr}")
+        check(results(f"t{count}") == results("t1"), f"the bits of {count} threads are those of one")
+
+
+def killed():
+    """kill -9 at random moments of the whole run, again and again, then to the end."""
+    pathlib.Path("a.toml").write_text(CASE, encoding="utf-8")
+    begin = time.monotonic()
+    check(strandlab("run", "a.toml", "-o", "whole").returncode == DONE, "whole run")
+    whole_s = time.monotonic() - begin
+    chance = random.Random(1)
+    resumed = 0
+    for _ in range(6):
+        with subprocess.Popen([PROGRAM, "run", "a.toml", "-o", "killed"], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            time.sleep(chance.uniform(0.05, 0.8) * whole_s)
+            process.kill()
+            out, _ = process.communicate()
+            resumed += b"going on" in out
+    result = strandlab("run", "a.toml", "-o", "killed")
+    check(result.returncode == DONE, f"run after kills: {result.stderr}")
+    check(resumed + ("going on" in result.stdout) > 0, "some run went on from a checkpoint")
+    check(results("killed") == results("whole"), "the bits after kills are those of an undisturbed run")
+
+
+for test in (init_and_check, overrides, single_steps, run_folder, threads, killed):
+    with scratch():
+        test()
+finish()

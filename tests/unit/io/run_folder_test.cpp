@@ -1,0 +1,140 @@
+// Run folders: whose results they hold, and that a refusal writes nothing.
+#include "strandlab/io/run_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include "strandlab/core/error.hpp"
+#include "temporary_folder.hpp"
+#include "unwritable.hpp"
+
+namespace strandlab::io {
+namespace {
+
+using test::message_of;
+using test::put;
+using test::TemporaryFolder;
+
+constexpr double kSmall = 1e3;  // bytes that every test machine has free
+
+Case with(const std::string& override_text) {
+  return case_from_text("", "panel.toml", {override_text});
+}
+
+std::string refusal(const std::filesystem::path& folder, const Case& c, double bytes = kSmall) {
+  return message_of<InputError>([&] { RunFolder(folder, c, Step::kMat, false, bytes); });
+}
+
+// A folder in which all steps are done.
+void make_finished(const std::filesystem::path& folder, const Case& c) {
+  RunFolder run(folder, c, Step::kMat, false, kSmall);
+  std::filesystem::create_directory(run.file("panels"));
+  for (const auto* name : {"mat.json", "press.csv", "panels/panel_0.h5", "moduli.csv", "notes.txt"})
+    put(run.file(name), "x");
+  for (const auto step : {Step::kMat, Step::kPress, Step::kTest}) run.set_finished(step);
+}
+
+TEST(RunFolder, KeepsResultsOfTheSameCase) {
+  const TemporaryFolder folder;
+  make_finished(folder / "run", Case());
+  Case other_threads;
+  other_threads.threads = 7;  // changes no result
+  const RunFolder again(folder / "run", other_threads, Step::kMat, false, kSmall);
+  EXPECT_TRUE(again.finished(Step::kTest));
+  EXPECT_EQ(test::contents(again.file("moduli.csv")), "x");
+}
+
+TEST(RunFolder, HoldsTheResolvedCase) {
+  const TemporaryFolder folder;
+  const auto c = with("press.speed_m_s=8");
+  const RunFolder run(folder / "run", c, Step::kMat, false, kSmall);
+  EXPECT_EQ(test::contents(run.file("case.toml")), resolved_text(c));
+}
+
+TEST(RunFolder, RefusesAnotherCaseAndSaysWhatDiffers) {
+  const TemporaryFolder folder;
+  make_finished(folder / "run", Case());
+  const auto before = test::contents(folder / "run/run.json");
+  const auto message = refusal(folder / "run", with("press.speed_m_s=8"));
+  EXPECT_NE(message.find("press.speed_m_s = 16 there, 8 here"), std::string::npos) << message;
+  EXPECT_NE(message.find("--force"), std::string::npos) << message;
+  EXPECT_EQ(test::contents(folder / "run/run.json"), before);
+  EXPECT_NE(refusal(folder / "run", with("materials.m.E_L_MPa=9000")).find("materials.m.E_L_MPa only here"),
+            std::string::npos);
+}
+
+TEST(RunFolder, ForceStartsAgainFromTheFirstStepThatDiffers) {
+  const TemporaryFolder folder;
+  make_finished(folder / "run", Case());
+  {
+    const RunFolder run(folder / "run", with("glue.max_gap_mm=0.2"), Step::kTest, true, kSmall);
+    EXPECT_TRUE(run.finished(Step::kPress));
+    EXPECT_FALSE(run.finished(Step::kTest));
+    EXPECT_FALSE(std::filesystem::exists(run.file("moduli.csv")));
+    EXPECT_TRUE(std::filesystem::exists(run.file("panels/panel_0.h5")));
+  }
+  const RunFolder run(folder / "run", with("press.speed_m_s=8"), Step::kTest, true, kSmall);
+  EXPECT_TRUE(run.finished(Step::kMat));
+  EXPECT_FALSE(run.finished(Step::kPress));
+  EXPECT_FALSE(std::filesystem::exists(run.file("panels")));
+  EXPECT_TRUE(std::filesystem::exists(run.file("notes.txt")));  // the user's own files stay
+}
+
+TEST(RunFolder, ForceOnTheSameCaseStartsAgainAtTheCommandsStep) {
+  const TemporaryFolder folder;
+  make_finished(folder / "run", Case());
+  const RunFolder run(folder / "run", Case(), Step::kPress, true, kSmall);
+  EXPECT_TRUE(run.finished(Step::kMat));
+  EXPECT_FALSE(run.finished(Step::kPress));
+  EXPECT_FALSE(run.finished(Step::kTest));
+}
+
+TEST(RunFolder, RefusesAFolderThatIsNotARun) {
+  const TemporaryFolder folder;
+  put(folder / "letter.txt", "dear");
+  EXPECT_NE(refusal(folder.path(), Case()).find("no strandlab run"), std::string::npos);
+  EXPECT_EQ(folder.files(), 1U);
+  put(folder / "run.json", "{\"name\": \"something else\"}");
+  EXPECT_NE(refusal(folder.path(), Case()).find("not the record of a strandlab run"), std::string::npos);
+  put(folder / "run.json", "{\"strandlab\": ");
+  EXPECT_NE(refusal(folder.path(), Case()).find("run.json"), std::string::npos);
+}
+
+// A kill between making the folder and its first file leaves at most a temporary file.
+TEST(RunFolder, TakesAnEmptyFolder) {
+  const TemporaryFolder folder;
+  put(folder / "run.json.tmp", "{");
+  EXPECT_NO_THROW(RunFolder(folder.path(), Case(), Step::kMat, false, kSmall));
+}
+
+TEST(RunFolder, RefusesWhatCannotBeWritten) {
+  const TemporaryFolder folder;
+  put(folder / "file", "");
+  EXPECT_NE(refusal(folder / "file/run", Case()).find("is not a folder"), std::string::npos);
+  const test::ReadOnly read_only(folder.path());
+  EXPECT_NE(refusal(folder / "run", Case()).find("ermission denied"), std::string::npos);
+}
+
+TEST(RunFolder, RefusesADiskWithoutSpace) {
+  const TemporaryFolder folder;
+  const auto message = refusal(folder / "run", Case(), 1e18);
+  EXPECT_NE(message.find("disk space"), std::string::npos) << message;
+  EXPECT_EQ(folder.files(), 0U);
+}
+
+TEST(RunFolder, RefusesAFolderInUse) {
+  const TemporaryFolder folder;
+  const RunFolder first(folder / "run", Case(), Step::kMat, false, kSmall);
+  EXPECT_NE(refusal(folder / "run", Case()).find("another strandlab"), std::string::npos);
+}
+
+// Files of a pressing that was forgotten by --force just before a kill must not be taken for results.
+TEST(RunFolder, RemovesFilesOfStepsItDoesNotKnow) {
+  const TemporaryFolder folder;
+  { const RunFolder run(folder / "run", Case(), Step::kMat, false, kSmall); }
+  put(folder / "run/checkpoint.h5", "old");
+  const RunFolder run(folder / "run", Case(), Step::kMat, false, kSmall);
+  EXPECT_FALSE(std::filesystem::exists(run.file("checkpoint.h5")));
+}
+
+}  // namespace
+}  // namespace strandlab::io
