@@ -134,10 +134,11 @@ TEST(MakePanel, UnknownRoleAndMaterialAreInputErrors) {
 TEST(Corners, OfAnUndeformedStrandAreExact) {
   const auto s = make_panel(one_strand(12.5, 31.7), kinds(), 0.3, 4).strands.at(1);
   const auto c = corners(s);
-  ASSERT_EQ(c.size(), static_cast<std::size_t>(s.points[0] + 1) * 5);
+  ASSERT_EQ(c.size(), (static_cast<std::size_t>(s.points[0]) + 1) * 5);
   for (int j = 0; j <= 4; ++j) {
     for (int i = 0; i <= s.points[0]; ++i) {
-      const auto& corner = c[static_cast<std::size_t>(i + (s.points[0] + 1) * j)];
+      const auto& corner =
+          c[static_cast<std::size_t>(i) + (static_cast<std::size_t>(s.points[0]) + 1) * static_cast<std::size_t>(j)];
       EXPECT_NEAR(corner[0], 12.5 + i * 19.2 / s.points[0], 1e-12);
       EXPECT_NEAR(corner[1], 0.8 + 0.2 * j, 1e-12);
     }
