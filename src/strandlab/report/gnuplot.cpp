@@ -46,7 +46,7 @@ std::string style_of(CurveStyle style, std::size_t curve) {
     case CurveStyle::kLines:
       return "with lines";
     case CurveStyle::kSteps:
-      return "with steps";
+      return "with fsteps";
     case CurveStyle::kLinesAndPoints:
       break;
   }
@@ -151,13 +151,13 @@ std::string gnuplot_script(const Plot& plot) {
   std::string script = fmt::format(
       "set encoding utf8\nset terminal pngcairo noenhanced size 1400,900 font \"sans,20\" background \"#ffffff\"\n"
       "set title {}\nset xlabel {}\nset ylabel {}\nset border 3 lw 1.5\nset tics nomirror out\n"
-      "set grid lt 1 lc rgb \"#e0e0e0\" lw 1\nset xrange [{}:{}]\nset yrange [0:*]\nset rmargin 4\n",
+      "set grid lt 1 lc rgb \"#e0e0e0\" lw 1\nset xrange [{}:{}]\nset yrange [0:*]\n",
       quoted(plot.title), quoted(plot.x_label), quoted(plot.y_label), plot.x_low, plot.x_high);
   if (plot.curves.size() > 1) {
     script += fmt::format("set key outside right top vertical title {} left Left reverse samplen 2\n",
                           quoted(plot.key_title));
   } else {
-    script += "unset key\n";
+    script += "unset key\nset rmargin 4\n";
   }
   std::string curves;
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {

@@ -52,7 +52,7 @@ void fit_axis(Plot& plot, std::optional<double> start) {
   plot.x_high = high + margin;
 }
 
-// Outline of a histogram from its first to its last bin that holds anything. A step goes up at its right end.
+// Outline of a histogram from its first to its last bin that holds anything. gnuplot's fsteps go up, then right.
 Curve outline(const Histogram& h, const std::string& name) {
   const auto holds = [](double fraction) { return fraction > 0; };
   const auto first = std::find_if(h.fraction.begin(), h.fraction.end(), holds) - h.fraction.begin();

@@ -1,0 +1,141 @@
+#include "strandlab/io/vtk.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "strandlab/core/error.hpp"
+#include "temporary_folder.hpp"
+
+namespace strandlab::io {
+namespace {
+
+using test::contents;
+using test::TemporaryFolder;
+
+template <int Dim>
+Strand<Dim> block(const std::array<int, Dim>& points, const Vec<Dim>& spacing, const Vec<Dim>& origin) {
+  Strand<Dim> s;
+  s.points = points;
+  s.spacing = spacing;
+  s.material.density = 350 * kTonnePerMm3;
+  std::size_t n = 1;
+  for (const int extent : points) n *= static_cast<std::size_t>(extent);
+  for (std::size_t p = 0; p < n; ++p) {
+    Vec<Dim> x = origin;
+    std::size_t rest = p;
+    for (int d = 0; d < Dim; ++d) {
+      const auto extent = static_cast<std::size_t>(points[static_cast<std::size_t>(d)]);
+      x[d] += (static_cast<double>(rest % extent) + 0.5) * spacing[d];
+      rest /= extent;
+    }
+    s.x.push_back(x);
+  }
+  s.v.assign(n, Vec<Dim>::Zero());
+  s.F.assign(n, Tensor<Dim>::Identity());
+  s.stress.assign(n, Voigt::Zero());
+  s.plastic.assign(n, 0.0);
+  return s;
+}
+
+// Reads an array of the file back, independently of the writer: base64 by table look-up, UInt64 size, then the values.
+template <class Value>
+std::vector<Value> array_of(const std::string& file, const std::string& name) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const std::size_t head = file.find("Name=\"" + name + "\""), begin = file.find('>', head) + 1;
+  EXPECT_NE(head, std::string::npos) << name;
+  std::string bytes;
+  std::uint32_t bits = 0;
+  int held = 0;
+  for (std::size_t i = begin; file[i] != '<' && file[i] != '='; ++i) {
+    bits = bits << 6U | static_cast<std::uint32_t>(digits.find(file[i]));
+    held += 6;
+    if (held >= 8) bytes += static_cast<char>(bits >> (held -= 8) & 255U);
+  }
+  std::uint64_t size = 0;
+  std::memcpy(&size, bytes.data(), sizeof size);
+  EXPECT_EQ(bytes.size(), size + sizeof size) << name;
+  std::vector<Value> values(size / sizeof(Value));
+  std::memcpy(values.data(), bytes.data() + sizeof size, size);
+  return values;
+}
+
+TEST(Vtu, SectionHasOneQuadPerPoint) {
+  const TemporaryFolder folder;
+  Panel<2> panel;
+  panel.strands = {block<2>({3, 2}, {0.5, 0.25}, {1, 2}), block<2>({2, 1}, {0.5, 0.5}, {1, 2.5})};
+  panel.strands[1].row = 1;
+  panel.strands[1].F[1] = Tensor<2>{{1, 0}, {0, 0.5}};
+  panel.strands[1].stress[1] = Voigt{-1, -2, -3, 0, 0.5, 0};
+  panel.strands[1].plastic[1] = 0.125;
+  panel.strands[1].v[1] = Vec<2>(2000, -500);
+  write_vtu(panel, folder / "p.vtu");
+  const std::string file = contents(folder / "p.vtu");
+  EXPECT_NE(file.find("<Piece NumberOfPoints=\"18\" NumberOfCells=\"8\">"), std::string::npos);  // 4 x 3 + 3 x 2
+  const auto points = array_of<float>(file, "position_mm");
+  const auto cells = array_of<std::int64_t>(file, "connectivity");
+  ASSERT_EQ(points.size(), 18U * 3U);
+  ASSERT_EQ(cells.size(), 8U * 4U);
+  EXPECT_EQ((std::vector<std::int64_t>(cells.begin() + 16, cells.begin() + 20)),
+            (std::vector<std::int64_t>{5, 6, 10, 9}));
+  // Cell (1, 1) of the first strand: x 1.5..2, y 2.25..2.5.
+  EXPECT_EQ(points[3 * 5], 1.5F);
+  EXPECT_EQ(points[3 * 5 + 1], 2.25F);
+  EXPECT_EQ(points[3 * 10], 2.0F);
+  EXPECT_EQ(points[3 * 10 + 1], 2.5F);
+  EXPECT_EQ(array_of<std::int64_t>(file, "offsets").back(), 32);
+  EXPECT_EQ(array_of<std::uint8_t>(file, "types"), std::vector<std::uint8_t>(8, 9));
+  EXPECT_EQ(array_of<float>(file, "density_kg_m3"), (std::vector<float>{350, 350, 350, 350, 350, 350, 350, 700}));
+  EXPECT_EQ(array_of<std::int32_t>(file, "strand_id"), (std::vector<std::int32_t>{0, 0, 0, 0, 0, 0, 1, 1}));
+  EXPECT_EQ(array_of<std::int32_t>(file, "row"), (std::vector<std::int32_t>{0, 0, 0, 0, 0, 0, 1, 1}));
+  EXPECT_EQ(array_of<float>(file, "plastic_strain").back(), 0.125F);
+  const auto stress = array_of<float>(file, "stress_MPa");  // Kirchhoff over J = 1/2, across is -z, through is y
+  EXPECT_EQ((std::vector<float>(stress.end() - 6, stress.end())), (std::vector<float>{-2, -6, -4, 1, 0, 0}));
+  const auto velocity = array_of<float>(file, "velocity_m_s");
+  EXPECT_EQ((std::vector<float>(velocity.end() - 3, velocity.end())), (std::vector<float>{2, -0.5F, 0}));
+}
+
+TEST(Vtu, PanelHasOneHexahedronPerPoint) {
+  const TemporaryFolder folder;
+  Panel<3> panel;
+  panel.strands = {block<3>({2, 3, 2}, {1, 2, 0.5}, {0, 0, 0})};
+  write_vtu(panel, folder / "p.vtu");
+  const std::string file = contents(folder / "p.vtu");
+  EXPECT_NE(file.find("<Piece NumberOfPoints=\"36\" NumberOfCells=\"12\">"), std::string::npos);
+  const auto points = array_of<float>(file, "position_mm");
+  const auto cells = array_of<std::int64_t>(file, "connectivity");
+  ASSERT_EQ(cells.size(), 12U * 8U);
+  EXPECT_EQ(array_of<std::uint8_t>(file, "types"), std::vector<std::uint8_t>(12, 12));
+  // The volume of every cell, from three of its edges, is that of the material point: 1 mm^3; right-handed.
+  for (std::size_t c = 0; c < 12; ++c) {
+    const auto corner = [&](std::size_t k) {
+      const auto p = static_cast<std::size_t>(3 * cells[8 * c + k]);
+      return Vec<3>(points[p], points[p + 1], points[p + 2]);
+    };
+    Tensor<3> edges;
+    edges << corner(1) - corner(0), corner(3) - corner(0), corner(4) - corner(0);
+    EXPECT_NEAR(edges.determinant(), 1, 1e-6);
+    EXPECT_NEAR((corner(6) - corner(7) - corner(1) + corner(0)).norm(), 0, 1e-6);
+  }
+}
+
+TEST(Pvd, ListsStatesByCompaction) {
+  const TemporaryFolder folder;
+  write_pvd({{0, "panel_0.vtu"}, {0.1, "a&b.vtu"}}, folder / "run.pvd");
+  const std::string file = contents(folder / "run.pvd");
+  EXPECT_NE(file.find("<DataSet timestep=\"0\" part=\"0\" file=\"panel_0.vtu\"/>"), std::string::npos);
+  EXPECT_NE(file.find("<DataSet timestep=\"0.1\" part=\"0\" file=\"a&amp;b.vtu\"/>"), std::string::npos);
+}
+
+TEST(Vtu, FolderThatIsMissingIsBadInput) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(write_vtu(Panel<2>{}, folder / "none" / "p.vtu"), InputError);
+}
+
+}  // namespace
+}  // namespace strandlab::io
