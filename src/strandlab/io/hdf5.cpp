@@ -152,8 +152,8 @@ std::string read_whole(const std::filesystem::path& path) {
 }  // namespace
 
 SilentErrors::SilentErrors() {
-  // A damaged file can leave the library with objects that it fails to close at exit, and says so on the terminal. Our files
-  // live in memory: there is nothing to close.
+  // A damaged file can leave the library with objects that it fails to close at exit, and says so on the terminal. Our
+  // files live in memory: there is nothing to close.
   H5dont_atexit();
   H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

@@ -1,11 +1,10 @@
 #include "strandlab/mpm/engine.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <omp.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -19,10 +18,10 @@
 namespace strandlab::mpm {
 namespace {
 
-constexpr int kTileColumns = 32;     // particles of a tile along the strand (2D)
-constexpr int kTileColumns3 = 16;    // and along and across it (3D)
+constexpr int kTileColumns = 32;       // particles of a tile along the strand (2D)
+constexpr int kTileColumns3 = 16;      // and along and across it (3D)
 constexpr int kTimeStepInterval = 32;  // steps between updates of the time step
-constexpr double kMaxDrift = 0.9;    // cells a particle may move before the windows are made again (Extents allows 1)
+constexpr double kMaxDrift = 0.9;      // cells a particle may move before the windows are made again (Extents allows 1)
 
 double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -65,10 +64,10 @@ struct Engine<Dim>::Impl {
     wood::YieldModes<6> modes6{};
     Vec<Dim> spacing;
     int blocks = 0;
-    AlignedArray data;                // blocks of particles
-    std::vector<unsigned char> lanes; // real particles per block
-    std::vector<int> particle;        // user's index of each lane, -1 for padding
-    std::vector<int> where;           // for each user index: offset of its x in data
+    AlignedArray data;                 // blocks of particles
+    std::vector<unsigned char> lanes;  // real particles per block
+    std::vector<int> particle;         // user's index of each lane, -1 for padding
+    std::vector<int> where;            // for each user index: offset of its x in data
     struct FaceData {
       std::vector<int> where;
       AlignedArray offset, area;
@@ -84,8 +83,8 @@ struct Engine<Dim>::Impl {
   std::vector<BodyWindows> windows;
   std::vector<BodyView<Dim>> views;
   PencilTable table;
-  std::vector<Tile> tiles;                // by colour
-  std::vector<int> colour_begin;          // ranges of tiles that may scatter at the same time
+  std::vector<Tile> tiles;        // by colour
+  std::vector<int> colour_begin;  // ranges of tiles that may scatter at the same time
   std::vector<TileResult> tile_results;
   std::vector<PencilResult> pencil_results;
   AlignedArray nodes, surface, filtered;
@@ -128,20 +127,23 @@ struct Engine<Dim>::Impl {
 
   void check_grid() const {
     for (int a = 0; a < Dim; ++a) {
-      if (!(grid.cell[a] > 0)) throw InputError(fmt::format("grid: cell size {} mm on axis {}; it must be positive", grid.cell[a], a));
+      if (!(grid.cell[a] > 0))
+        throw InputError(fmt::format("grid: cell size {} mm on axis {}; it must be positive", grid.cell[a], a));
       if (!(grid.hi[a] > grid.lo[a])) throw InputError(fmt::format("grid: empty window on axis {}", a));
       if (a == Dim - 1) continue;
       for (int side = 0; side < 2; ++side) {
         if (grid.sides[a][side] != Side::kRoller) continue;
         const double plane = ((side == 0 ? grid.lo[a] : grid.hi[a]) - grid.origin[a]) / grid.cell[a];
         if (std::abs(plane - std::round(plane)) > 1e-6) {
-          throw InputError(fmt::format("grid: the roller plane on axis {} must lie on a grid line, it is at {} cells", a, plane));
+          throw InputError(
+              fmt::format("grid: the roller plane on axis {} must lie on a grid line, it is at {} cells", a, plane));
         }
       }
     }
   }
 
-  // Order of a body's particles in blocks: tile by tile, within a tile row by row, eight neighbours along the strand to a block.
+  // Order of a body's particles in blocks: tile by tile, within a tile row by row, eight neighbours along the strand to
+  // a block.
   std::vector<std::vector<std::vector<int>>> tile_order(const Body<Dim>& body, std::vector<int>& colours) const {
     std::vector<std::vector<std::vector<int>>> result;  // tile -> block -> particle
     const auto add_run = [](std::vector<std::vector<int>>& blocks, const std::vector<int>& run) {
@@ -182,7 +184,8 @@ struct Engine<Dim>::Impl {
   std::vector<int> tile_colours;
 
   void add_body(const Body<Dim>& input, int index) {
-    if (input.faces.size() > kMaxFaces) throw InputError(fmt::format("body {}: more than {} faces", input.name, kMaxFaces));
+    if (input.faces.size() > kMaxFaces)
+      throw InputError(fmt::format("body {}: more than {} faces", input.name, kMaxFaces));
     if (input.x.empty()) throw InputError(fmt::format("body {}: no particles", input.name));
     bodies.emplace_back();
     BodyData& body = bodies.back();
@@ -190,8 +193,10 @@ struct Engine<Dim>::Impl {
     body.material = input.material;
     body.spacing = input.spacing;
     body.components = Dim == 3 || wood::needs_six(input.material) ? 6 : 4;
-    if (body.components == 4) body.modes4 = wood::yield_modes<4>(input.material);
-    else body.modes6 = wood::yield_modes<6>(input.material);
+    if (body.components == 4)
+      body.modes4 = wood::yield_modes<4>(input.material);
+    else
+      body.modes6 = wood::yield_modes<6>(input.material);
 
     std::vector<int> colours;
     const auto order = tile_order(input, colours);
@@ -224,8 +229,10 @@ struct Engine<Dim>::Impl {
       for (int l = 0; l < kBlock; ++l) {
         int p = body.particle[b * kBlock + l];
         const std::size_t at = static_cast<std::size_t>(b) * count * kBlock + l;
-        if (p < 0) p = body.particle[b * kBlock + body.lanes[b] - 1];  // padding follows the last particle
-        else body.where[p] = static_cast<int>(at);
+        if (p < 0)
+          p = body.particle[b * kBlock + body.lanes[b] - 1];  // padding follows the last particle
+        else
+          body.where[p] = static_cast<int>(at);
         double* d = body.data.data() + at;
         for (int a = 0; a < Dim; ++a) {
           d[(C::x + a) * kBlock] = input.x[p][a];
@@ -235,8 +242,8 @@ struct Engine<Dim>::Impl {
         for (int k = 0; k < body.components; ++k) d[(C::stress + k) * kBlock] = input.stress[p][wood::kModeToVoigt[k]];
         d[C::plastic(body.components) * kBlock] = input.plastic[p];
         d[C::radius(body.components) * kBlock] =
-            1 + wood::ScalarOps::hardening_slope(body.material.hardening_K / body.material.Y_R, body.material.hardening_n,
-                                                 input.plastic[p]) *
+            1 + wood::ScalarOps::hardening_slope(body.material.hardening_K / body.material.Y_R,
+                                                 body.material.hardening_n, input.plastic[p]) *
                     input.plastic[p] / body.material.hardening_n;
       }
     }
@@ -248,7 +255,8 @@ struct Engine<Dim>::Impl {
     body.faces.emplace_back();
     auto& data = body.faces.back();
     std::vector<std::vector<int>> by_tile(tile_count);
-    for (std::size_t i = 0; i < face.particle.size(); ++i) by_tile[tile_of[face.particle[i]]].push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < face.particle.size(); ++i)
+      by_tile[tile_of[face.particle[i]]].push_back(static_cast<int>(i));
     std::vector<int> order;  // -1: padding
     for (std::size_t t = 0; t < tile_count; ++t) {
       tiles[first_tile + t].face_begin[f] = static_cast<int>(order.size()) / kBlock;
@@ -317,8 +325,8 @@ struct Engine<Dim>::Impl {
     return f;
   }
 
-  // Wave speeds along the panel's axes from the acoustic tensor of the rotated stiffness (bounded by its largest row sum), in a
-  // sample of the particles: the grain angle varies slowly along a strand.
+  // Wave speeds along the panel's axes from the acoustic tensor of the rotated stiffness (bounded by its largest row
+  // sum), in a sample of the particles: the grain angle varies slowly along a strand.
   double time_step() const {
     const Frame<Dim> f = frame();
     double limit = 1e300;
@@ -348,8 +356,10 @@ struct Engine<Dim>::Impl {
           const Eigen::Matrix3d acoustic = B.transpose() * c * B;
           const double stiffness = acoustic.cwiseAbs().rowwise().sum().maxCoeff();
           double pressure = 0;
-          for (int k = 0; k < body.components; ++k) pressure = std::max(pressure, std::abs(d[(C::stress + k) * kBlock]));
-          const double speed = std::sqrt((stiffness + pressure) / body.material.density) + std::abs(d[(C::v + a) * kBlock]);
+          for (int k = 0; k < body.components; ++k)
+            pressure = std::max(pressure, std::abs(d[(C::stress + k) * kBlock]));
+          const double speed =
+              std::sqrt((stiffness + pressure) / body.material.density) + std::abs(d[(C::v + a) * kBlock]);
           limit = std::min(limit, f.cell[a] / speed);
         }
       }
@@ -370,7 +380,8 @@ struct Engine<Dim>::Impl {
     }
   }
 
-  // A particle may not leave the window: behind a roller by more than a quarter cell, elsewhere by more than the margin.
+  // A particle may not leave the window: behind a roller by more than a quarter cell, elsewhere by more than the
+  // margin.
   void check_particles_inside() const {
     for (const auto& body : bodies) {
       each_particle(body, [&](int p, const Vec<Dim>& x, const double*) {
@@ -515,7 +526,8 @@ struct Engine<Dim>::Impl {
 
   // ------------------------------------------------------------------------------------------------ rollers
 
-  // Calls visit(axis, side, ghost record, mirror record, records to fold) for a window's nodes one cell behind each roller.
+  // Calls visit(axis, side, ghost record, mirror record, records to fold) for a window's nodes one cell behind each
+  // roller.
   template <class Visit>
   static void each_ghost(const WindowStore& w, const Frame<Dim>& f, bool reverse, Visit visit) {
     for (int n = 0; n < Dim - 1; ++n) {
@@ -523,7 +535,8 @@ struct Engine<Dim>::Impl {
       for (int side = 0; side < 2; ++side) {
         if (f.wall[a][side] == kNoWall) continue;
         const int step = side == 0 ? -1 : 1;
-        const int ghost = f.wall[a][side] + step - w.window.first[a], mirror = f.wall[a][side] - step - w.window.first[a];
+        const int ghost = f.wall[a][side] + step - w.window.first[a],
+                  mirror = f.wall[a][side] - step - w.window.first[a];
         if (ghost < 0 || mirror < 0 || ghost >= w.window.count[a] || mirror >= w.window.count[a]) continue;
         const int other = 1 - a;
         for (int k = 0; k < w.window.count[other]; ++k) {
@@ -536,7 +549,8 @@ struct Engine<Dim>::Impl {
     }
   }
 
-  // The body continues as its mirror image behind a roller: what fell on the ghost nodes is added to their mirror images.
+  // The body continues as its mirror image behind a roller: what fell on the ghost nodes is added to their mirror
+  // images.
   void fold(const Frame<Dim>& f) {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const auto add_to_mirror = [&](int axis, int, int ghost, int mirror, int count) {
@@ -614,8 +628,8 @@ struct Engine<Dim>::Impl {
       const int begin = colour_begin[colour], end = colour_begin[colour + 1];
 #pragma omp parallel for schedule(dynamic, 2) num_threads(options.threads) if (options.threads > 1)
       for (int t = begin; t < end; ++t) {
-        kernel->scatter(tiles[t], views[tiles[t].body], f, nodes.data(), surface.data(), bodies[tiles[t].body].lanes.data(),
-                        options.profile, tile_results[t]);
+        kernel->scatter(tiles[t], views[tiles[t].body], f, nodes.data(), surface.data(),
+                        bodies[tiles[t].body].lanes.data(), options.profile, tile_results[t]);
       }
     }
   }
@@ -678,8 +692,8 @@ struct Engine<Dim>::Impl {
     const auto count = static_cast<int>(tiles.size());
 #pragma omp parallel for schedule(dynamic, 2) num_threads(options.threads) if (options.threads > 1)
     for (int t = 0; t < count; ++t) {
-      kernel->gather(tiles[t], views[tiles[t].body], f, nodes.data(), bodies[tiles[t].body].lanes.data(), options.profile,
-                     tile_results[t]);
+      kernel->gather(tiles[t], views[tiles[t].body], f, nodes.data(), bodies[tiles[t].body].lanes.data(),
+                     options.profile, tile_results[t]);
     }
     long long yielding = 0;
     std::array<double, 3> moved{};
@@ -746,7 +760,8 @@ struct Engine<Dim>::Impl {
     for (int a = 0; a < Dim; ++a) {
       const double xi = (x[a] - f.origin[a]) * f.inverse_cell[a];
       s.node[a] = static_cast<int>(std::lround(xi));
-      const double r = std::clamp(0.5 * body.spacing[a] * std::abs(d[(C::F + a * Dim + a) * kBlock]) * f.inverse_cell[a], 1e-3, 0.5);
+      const double r =
+          std::clamp(0.5 * body.spacing[a] * std::abs(d[(C::F + a * Dim + a) * kBlock]) * f.inverse_cell[a], 1e-3, 0.5);
       s.axis[a] = gimp(xi - s.node[a], r);
     }
     return s;
@@ -764,9 +779,9 @@ struct Engine<Dim>::Impl {
     }
   }
 
-  // XPIC(2), Hammerquist & Nairn (2017): particle velocities become S (2 v - P S v), where S interpolates from the grid, P projects
-  // to it and v is the grid's new velocity. Removes the part of the particle velocities that the grid does not see; linear
-  // momentum is untouched. The kinetic energy it takes is booked under Energies::filter.
+  // XPIC(2), Hammerquist & Nairn (2017): particle velocities become S (2 v - P S v), where S interpolates from the
+  // grid, P projects to it and v is the grid's new velocity. Removes the part of the particle velocities that the grid
+  // does not see; linear momentum is untouched. The kinetic energy it takes is booked under Energies::filter.
   void filter(const Frame<Dim>& f) {
     filtered.resize(nodes.size() / kRecord * Dim);
     const double before = kinetic();
@@ -825,7 +840,8 @@ struct Engine<Dim>::Impl {
         if (f.wall[a][side] == kNoWall || at < 0 || at >= w.window.count[a]) continue;
         for (int p = 0; p < w.pencils(); ++p) {
           if ((a == 0 ? p % w.window.count[0] : p / w.window.count[0]) != at) continue;
-          for (int row = w.lo[p]; row <= w.hi[p]; ++row) filtered[static_cast<std::size_t>(w.base[p] + row) * Dim + a] = 0;
+          for (int row = w.lo[p]; row <= w.hi[p]; ++row)
+            filtered[static_cast<std::size_t>(w.base[p] + row) * Dim + a] = 0;
         }
       }
     }
@@ -849,7 +865,8 @@ struct Engine<Dim>::Impl {
         int fields = 0;
         for (int k = pencil.field_begin; k < pencil.field_end; ++k) {
           const auto& field = table.fields[k];
-          if (row >= field.row_lo && row < field.row_hi) fields += nodes[static_cast<std::size_t>(field.base + row) * kRecord + 7] > 0;
+          if (row >= field.row_lo && row < field.row_hi)
+            fields += nodes[static_cast<std::size_t>(field.base + row) * kRecord + 7] > 0;
         }
         all += fields;
         occupied += fields > 0;
@@ -886,7 +903,8 @@ struct Engine<Dim>::Impl {
     for (const auto& body : bodies) {
       double sum = 0;
       each_particle(body, [&](int, const Vec<Dim>&, const double* d) {
-        sum += body.components == 4 ? stored<4>(body.modes4, d + C::stress * kBlock) : stored<6>(body.modes6, d + C::stress * kBlock);
+        sum += body.components == 4 ? stored<4>(body.modes4, d + C::stress * kBlock)
+                                    : stored<6>(body.modes6, d + C::stress * kBlock);
       });
       total += body.particle_volume() * sum;
     }
@@ -1025,11 +1043,12 @@ std::size_t Engine<Dim>::bytes() const {
   std::size_t total = impl_->nodes.bytes() + impl_->surface.bytes() + impl_->filtered.bytes();
   for (const auto& body : impl_->bodies) {
     total += body.data.bytes() + body.lanes.size() + (body.particle.size() + body.where.size()) * sizeof(int);
-    for (const auto& face : body.faces) total += face.where.size() * sizeof(int) + face.offset.bytes() + face.area.bytes();
+    for (const auto& face : body.faces)
+      total += face.where.size() * sizeof(int) + face.offset.bytes() + face.area.bytes();
   }
   const auto& t = impl_->table;
-  return total + t.fields.size() * sizeof(PencilField) + t.pencils.size() * sizeof(Pencil) + t.row_start.size() * sizeof(int) +
-         t.slots.size() * sizeof(unsigned short);
+  return total + t.fields.size() * sizeof(PencilField) + t.pencils.size() * sizeof(Pencil) +
+         t.row_start.size() * sizeof(int) + t.slots.size() * sizeof(unsigned short);
 }
 template <int Dim>
 void Engine<Dim>::write(std::vector<Body<Dim>>& bodies) const {

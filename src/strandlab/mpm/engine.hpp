@@ -1,5 +1,5 @@
-// Explicit material point method (GIMP) for stacks of anisotropic elastic-plastic bodies that touch, in 2 and 3 dimensions.
-// The engine knows bodies and rigid platens; it knows nothing of mats and presses.
+// Explicit material point method (GIMP) for stacks of anisotropic elastic-plastic bodies that touch, in 2 and 3
+// dimensions. The engine knows bodies and rigid platens; it knows nothing of mats and presses.
 #pragma once
 
 #include <array>
@@ -12,15 +12,15 @@
 
 namespace strandlab::mpm {
 
-// Part of a body's surface whose normals do not cancel: top, bottom, one end... A face point rides on a particle p: it is at
-// x_p + F_p offset, with outward area vector cof(F_p) area. Faces are kept apart because the top and the bottom of a
-// compacted strand reach the same node.
+// Part of a body's surface whose normals do not cancel: top, bottom, one end... A face point rides on a particle p: it
+// is at x_p + F_p offset, with outward area vector cof(F_p) area. Faces are kept apart because the top and the bottom
+// of a compacted strand reach the same node.
 template <int Dim>
 struct Face {
   std::string name;
   std::vector<int> particle;
-  std::vector<Vec<Dim>> offset;  // mm, at formation
-  std::vector<Vec<Dim>> area;    // mm (2D, per mm depth) or mm^2, outward, at formation
+  std::vector<Vec<Dim>> offset;          // mm, at formation
+  std::vector<Vec<Dim>> area;            // mm (2D, per mm depth) or mm^2, outward, at formation
   Vec<Dim> traction = Vec<Dim>::Zero();  // MPa, applied to the face (dead load on the area at formation)
 };
 
@@ -33,8 +33,8 @@ struct Body {
   Vec<Dim> spacing;               // mm, a particle's domain at formation
   std::vector<Vec<Dim>> x, v;     // mm, mm/s
   std::vector<Tensor<Dim>> F;
-  std::vector<Voigt> stress;      // MPa, Kirchhoff, strand axes
-  std::vector<double> plastic;    // alpha
+  std::vector<Voigt> stress;    // MPa, Kirchhoff, strand axes
+  std::vector<double> plastic;  // alpha
   std::vector<Face<Dim>> faces;
 };
 
@@ -44,13 +44,13 @@ Body<Dim> body_of(const Strand<Dim>& strand);
 
 enum class Side { kFree, kRoller };
 
-// Background grid: cells of size `cell`, a grid line through `origin` on each axis. Rollers sit on the planes lo and hi (these
-// must be grid planes). A particle outside lo..hi (free sides: more than `margin` outside) stops the run.
+// Background grid: cells of size `cell`, a grid line through `origin` on each axis. Rollers sit on the planes lo and hi
+// (these must be grid planes). A particle outside lo..hi (free sides: more than `margin` outside) stops the run.
 template <int Dim>
 struct Grid {
-  Vec<Dim> cell;    // mm
-  Vec<Dim> origin;  // mm
-  Vec<Dim> lo, hi;  // mm, the window; last axis: where platens may be
+  Vec<Dim> cell;                                 // mm
+  Vec<Dim> origin;                               // mm
+  Vec<Dim> lo, hi;                               // mm, the window; last axis: where platens may be
   std::array<std::array<Side, 2>, Dim> sides{};  // [axis][lo, hi]; the last axis is free (platens)
   bool follow_platens = false;  // cell height keeps its ratio to the platen gap; `cell` is for the gap hi - lo
 };
@@ -72,13 +72,13 @@ struct Options {
 
 // Running totals, mJ (2D: per mm depth). Each from its own definition.
 struct Energies {
-  double kinetic = 0;  // of the particles, now
-  double elastic = 0;  // stored, now
-  double plastic = 0;  // dissipated: sum V0 tau : d eps_p
-  double friction = 0; // dissipated by slip against friction
-  double contact = 0;  // lost in inelastic meetings (normal impulses)
-  double filter = 0;   // lost to the velocity filter and to lumping when impulses pass from grid to particles
-  double platen_work = 0;  // done by the platens on the bodies
+  double kinetic = 0;        // of the particles, now
+  double elastic = 0;        // stored, now
+  double plastic = 0;        // dissipated: sum V0 tau : d eps_p
+  double friction = 0;       // dissipated by slip against friction
+  double contact = 0;        // lost in inelastic meetings (normal impulses)
+  double filter = 0;         // lost to the velocity filter and to lumping when impulses pass from grid to particles
+  double platen_work = 0;    // done by the platens on the bodies
   double external_work = 0;  // done by tractions and gravity
 };
 
@@ -106,21 +106,21 @@ class Engine {
   Engine(Engine&&) noexcept;
   Engine& operator=(Engine&&) noexcept;
 
-  void set_platens(const Platen& bottom, const Platen& top);  // positions and velocities for the steps to come
-  void set_platen_velocities(double bottom, double top);      // mm/s
-  void set_gravity(const Vec<Dim>& g);                        // mm/s^2
+  void set_platens(const Platen& bottom, const Platen& top);        // positions and velocities for the steps to come
+  void set_platen_velocities(double bottom, double top);            // mm/s
+  void set_gravity(const Vec<Dim>& g);                              // mm/s^2
   void set_traction(int body, int face, const Vec<Dim>& traction);  // MPa
   void resume(const EngineState& state);  // state of a run whose bodies were given to the constructor
 
-  // One time step. Throws RunError (step, time, body, position) when a particle leaves the grid, inverts (det F <= 0) or its
-  // stress is not finite, or the time step underflows; the bodies then hold the failed state.
+  // One time step. Throws RunError (step, time, body, position) when a particle leaves the grid, inverts (det F <= 0)
+  // or its stress is not finite, or the time step underflows; the bodies then hold the failed state.
   void step();
 
   const EngineState& state() const;
-  Energies energies() const;         // with kinetic and elastic evaluated now
-  double mean_motion_energy() const; // mJ, kinetic energy of each body's mean velocity
-  Vec<Dim> momentum() const;         // t mm/s, of the particles
-  double mass() const;               // t
+  Energies energies() const;                       // with kinetic and elastic evaluated now
+  double mean_motion_energy() const;               // mJ, kinetic energy of each body's mean velocity
+  Vec<Dim> momentum() const;                       // t mm/s, of the particles
+  double mass() const;                             // t
   double bottom_force() const, top_force() const;  // N (per mm depth in 2D), pressing positive, of the last step
   Timing timing() const;
   long long particle_steps() const;

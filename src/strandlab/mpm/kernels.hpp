@@ -1,13 +1,13 @@
-// The engine's inner loops, one function per phase. Plain data only: kernels.cpp is compiled once per instruction set and
-// must not share inline code with the rest of the program.
+// The engine's inner loops, one function per phase. Plain data only: kernels.cpp is compiled once per instruction set
+// and must not share inline code with the rest of the program.
 #pragma once
 
 #include "strandlab/wood/return_map.hpp"
 
 namespace strandlab::mpm {
 
-inline constexpr int kBlock = 8;    // particles per block: one SIMD pack
-inline constexpr int kRecord = 8;   // doubles per node record
+inline constexpr int kBlock = 8;   // particles per block: one SIMD pack
+inline constexpr int kRecord = 8;  // doubles per node record
 inline constexpr int kMaxFaces = 6;
 inline constexpr int kMaxFields = 24;  // fields meeting at one node
 
@@ -41,11 +41,11 @@ struct Frame {
 };
 inline constexpr int kNoWall = 1 << 30;
 
-// Dense nodes of a field: `height` rows on each pencil (line of nodes through the thickness), each pencil with its own offset,
-// so that node (pencil, row) is record base[pencil] + row.
+// Dense nodes of a field: `height` rows on each pencil (line of nodes through the thickness), each pencil with its own
+// offset, so that node (pencil, row) is record base[pencil] + row.
 struct Window {
-  int first[2];      // first pencil along each lateral axis
-  int count[2];      // pencils along each lateral axis (2D: count[1] = 1)
+  int first[2];  // first pencil along each lateral axis
+  int count[2];  // pencils along each lateral axis (2D: count[1] = 1)
   int height;
   const int* base;
 };
@@ -61,7 +61,7 @@ struct SurfaceView {
 template <int Dim>
 struct BodyView {
   double* blocks;
-  int components;  // stress components stored: 4 or 6
+  int components;         // stress components stored: 4 or 6
   double mass, volume;    // of a particle
   double half_size[Dim];  // mm, at formation
   const wood::YieldModes<4>* modes4;
@@ -72,8 +72,8 @@ struct BodyView {
   SurfaceView<Dim> face[kMaxFaces];
 };
 
-// A platen acts on a body as contact with the body's own mirror image: exact for a flat rigid wall wherever it lies between the
-// grid lines. Particles within this distance of it, in cells, are mirrored.
+// A platen acts on a body as contact with the body's own mirror image: exact for a flat rigid wall wherever it lies
+// between the grid lines. Particles within this distance of it, in cells, are mirrored.
 inline constexpr double kMirrorDepth = 2.3;
 
 // Unit of parallel work: a run of blocks of one body, and the face points that ride on them (in packs of eight).
@@ -88,15 +88,15 @@ struct TileResult {
   double kinetic_change;  // mJ, 1/2 sum m |dv|^2 of the particles
   double drift[3];        // largest displacement per axis, cells
   long long yielding;
-  int bad;                // block of the first particle that failed + 1, 0: none
-  double ticks[5];        // weights, scatter, surface, material, gather (when profiled)
+  int bad;          // block of the first particle that failed + 1, 0: none
+  double ticks[5];  // weights, scatter, surface, material, gather (when profiled)
 };
 
 // A body's nodes on one pencil.
 struct PencilField {
   int body;
-  int base;           // record index of row 0
-  int row_lo, row_hi; // rows stored: lo <= row < hi
+  int base;            // record index of row 0
+  int row_lo, row_hi;  // rows stored: lo <= row < hi
   int faces;
   struct Rows {
     int base, row_lo, row_hi;
@@ -118,20 +118,20 @@ struct GridView {
   double* nodes;
   double* surface;
   const PencilField* fields;
-  const int* row_start;          // per pencil row: range in `slot`
-  const unsigned short* slot;    // fields (relative to the pencil's first) whose windows hold that row
+  const int* row_start;        // per pencil row: range in `slot`
+  const unsigned short* slot;  // fields (relative to the pencil's first) whose windows hold that row
   double friction, platen_friction;
-  const double* traction;        // Dim per (body, face), or null
+  const double* traction;  // Dim per (body, face), or null
 };
 
 struct PencilResult {
-  double friction, contact;      // mJ
-  double platen_impulse[2];      // N s, pressing positive
-  double platen_work;            // mJ
-  double kinetic_change;         // mJ, 1/2 sum m |dv|^2 on the grid
-  double external_work;          // mJ
+  double friction, contact;  // mJ
+  double platen_impulse[2];  // N s, pressing positive
+  double platen_work;        // mJ
+  double kinetic_change;     // mJ, 1/2 sum m |dv|^2 on the grid
+  double external_work;      // mJ
   double contact_ticks;
-  int overflow;                  // more than kMaxFields fields at a node
+  int overflow;  // more than kMaxFields fields at a node
 };
 
 template <int Dim>

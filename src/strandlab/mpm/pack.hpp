@@ -1,5 +1,6 @@
 // A pack of eight doubles, one lane per particle. GCC vector extension: compiles to whatever the target has.
-// Included only by kernels.cpp, which is compiled once per instruction set; everything lives in that build's own namespace.
+// Included only by kernels.cpp, which is compiled once per instruction set; everything lives in that build's own
+// namespace.
 #pragma once
 
 namespace strandlab::mpm::STRANDLAB_ISA {
@@ -16,13 +17,27 @@ STRANDLAB_INLINE Pack load(const double* p) {
   __builtin_memcpy(&r, p, sizeof r);
   return r;
 }
-STRANDLAB_INLINE void store(double* p, const Pack& a) { __builtin_memcpy(p, &a, sizeof a); }
-STRANDLAB_INLINE Pack splat(double a) { return a - Pack{}; }
-STRANDLAB_INLINE Pack select(const Mask& c, const Pack& a, const Pack& b) { return c ? a : b; }
-STRANDLAB_INLINE Pack select(const Mask& c, double a, const Pack& b) { return c ? splat(a) : b; }
-STRANDLAB_INLINE Pack smaller(const Pack& a, const Pack& b) { return a < b ? a : b; }
-STRANDLAB_INLINE Pack larger(const Pack& a, const Pack& b) { return a > b ? a : b; }
-STRANDLAB_INLINE Pack absolute(const Pack& a) { return larger(a, -a); }
+STRANDLAB_INLINE void store(double* p, const Pack& a) {
+  __builtin_memcpy(p, &a, sizeof a);
+}
+STRANDLAB_INLINE Pack splat(double a) {
+  return a - Pack{};
+}
+STRANDLAB_INLINE Pack select(const Mask& c, const Pack& a, const Pack& b) {
+  return c ? a : b;
+}
+STRANDLAB_INLINE Pack select(const Mask& c, double a, const Pack& b) {
+  return c ? splat(a) : b;
+}
+STRANDLAB_INLINE Pack smaller(const Pack& a, const Pack& b) {
+  return a < b ? a : b;
+}
+STRANDLAB_INLINE Pack larger(const Pack& a, const Pack& b) {
+  return a > b ? a : b;
+}
+STRANDLAB_INLINE Pack absolute(const Pack& a) {
+  return larger(a, -a);
+}
 STRANDLAB_INLINE bool any(const Mask& m) {
   long long r = 0;
   for (int l = 0; l < kLanes; ++l) r |= m[l];
@@ -62,7 +77,9 @@ struct PackOps {
 
 // Nearest integer of each lane, as double, by the 1.5*2^52 trick (|a| < 2^31); bits() then holds it in the low half.
 inline constexpr double kRounder = 6755399441055744.0;
-STRANDLAB_INLINE Pack shifted(const Pack& a) { return a + kRounder; }
+STRANDLAB_INLINE Pack shifted(const Pack& a) {
+  return a + kRounder;
+}
 STRANDLAB_INLINE Mask bits(const Pack& s) {
   Mask m;
   __builtin_memcpy(&m, &s, sizeof m);

@@ -9,7 +9,8 @@ constexpr int kEmptyLo = std::numeric_limits<int>::max() / 2;
 constexpr int kEmptyHi = std::numeric_limits<int>::min() / 2;
 }  // namespace
 
-Extents::Extents(std::array<int, 2> f, std::array<int, 2> last) : first(f), count{}, flat_(f[1] == last[1] && f[1] == 0) {
+Extents::Extents(std::array<int, 2> f, std::array<int, 2> last)
+    : first(f), count{}, flat_(f[1] == last[1] && f[1] == 0) {
   first[0] -= kReach;
   count[0] = last[0] - f[0] + 1 + 2 * kReach;
   count[1] = last[1] - f[1] + 1;

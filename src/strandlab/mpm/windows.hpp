@@ -15,16 +15,15 @@ class Extents {
 
   Extents(std::array<int, 2> first, std::array<int, 2> last);  // of the points' nearest nodes
   void add(std::array<int, 2> pencil, int row);
-  void dilate();                       // by kReach, laterally and in rows
+  void dilate();                                           // by kReach, laterally and in rows
   void merge(std::array<int, 2> a, std::array<int, 2> b);  // both pencils take the union of their rows
 
   std::array<int, 2> first, count;
   std::vector<int> lo, hi;  // inclusive; lo > hi: no rows
-  int index(std::array<int, 2> pencil) const {
-    return (pencil[1] - first[1]) * count[0] + pencil[0] - first[0];
-  }
+  int index(std::array<int, 2> pencil) const { return (pencil[1] - first[1]) * count[0] + pencil[0] - first[0]; }
   bool contains(std::array<int, 2> pencil) const {
-    return pencil[0] >= first[0] && pencil[0] < first[0] + count[0] && pencil[1] >= first[1] && pencil[1] < first[1] + count[1];
+    return pencil[0] >= first[0] && pencil[0] < first[0] + count[0] && pencil[1] >= first[1] &&
+           pencil[1] < first[1] + count[1];
   }
 
  private:

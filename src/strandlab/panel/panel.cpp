@@ -30,7 +30,8 @@ wood::Material find_material(const StrandKind& kind, const mat::Strand& strand, 
 
 }  // namespace
 
-Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, double spacing_along_mm, int points_through) {
+Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, double spacing_along_mm,
+                    int points_through) {
   Panel<2> panel;
   panel.length_mm = mat.length_mm;
   panel.initial_thickness_mm = mat.layer_thickness_mm * static_cast<double>(mat.layers.size());

@@ -19,22 +19,22 @@ struct StrandKind {
   double angle_deg = 0;  // grain against the section (0 surface, 90 core)
 };
 
-// One strand: points[0] x points[1] (x points[2]) material points, along x [across x] through the thickness (last axis).
-// Point (i, j[, k]) has index i + points[0]*(j [+ points[1]*k]): along the strand runs fastest, rows stack through the
-// thickness. All arrays have that order and length size().
+// One strand: points[0] x points[1] (x points[2]) material points, along x [across x] through the thickness (last
+// axis). Point (i, j[, k]) has index i + points[0]*(j [+ points[1]*k]): along the strand runs fastest, rows stack
+// through the thickness. All arrays have that order and length size().
 template <int Dim>
 struct Strand {
-  std::string kind;             // name of its StrandKind
-  int row = 0;                  // layer of the mat, 0 at the bottom
+  std::string kind;  // name of its StrandKind
+  int row = 0;       // layer of the mat, 0 at the bottom
   double angle_deg = 0;
   wood::StrandMaterial material;
   std::array<int, Dim> points{};
-  Vec<Dim> spacing;                 // mm, of the points at formation: strand length = points[0]*spacing[0], exactly
-  std::vector<Vec<Dim>> x;          // mm, positions now
-  std::vector<Vec<Dim>> v;          // mm/s
-  std::vector<Tensor<Dim>> F;       // deformation gradient since formation
-  std::vector<Voigt> stress;        // MPa, Kirchhoff, strand axes convected with the strand (along = F a0)
-  std::vector<double> plastic;      // alpha, accumulated plastic strain
+  Vec<Dim> spacing;             // mm, of the points at formation: strand length = points[0]*spacing[0], exactly
+  std::vector<Vec<Dim>> x;      // mm, positions now
+  std::vector<Vec<Dim>> v;      // mm/s
+  std::vector<Tensor<Dim>> F;   // deformation gradient since formation
+  std::vector<Voigt> stress;    // MPa, Kirchhoff, strand axes convected with the strand (along = F a0)
+  std::vector<double> plastic;  // alpha, accumulated plastic strain
   std::size_t size() const { return x.size(); }
   double point_volume() const { return spacing.prod(); }  // mm^3 (2D: per mm of depth), at formation
 };
@@ -42,9 +42,9 @@ struct Strand {
 // State of a panel at one compaction.
 template <int Dim>
 struct Panel {
-  double length_mm = 0;            // along x, window 0..length
-  double depth_mm = 1;             // across; 1 for a section
-  double initial_thickness_mm = 0; // platen gap of the mat as formed
+  double length_mm = 0;              // along x, window 0..length
+  double depth_mm = 1;               // across; 1 for a section
+  double initial_thickness_mm = 0;   // platen gap of the mat as formed
   double bottom_mm = 0, top_mm = 0;  // platen faces now; thickness = top - bottom
   double time_s = 0;
   std::vector<Strand<Dim>> strands;  // by row, then by x
@@ -53,11 +53,13 @@ struct Panel {
 };
 
 // The panel of a mat before pressing: every strand becomes a lattice with `points_through` points through its thickness
-// and a spacing along it close to `spacing_along_mm` that fills its length exactly. Throws InputError for an unknown role.
-Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, double spacing_along_mm, int points_through);
+// and a spacing along it close to `spacing_along_mm` that fills its length exactly. Throws InputError for an unknown
+// role.
+Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, double spacing_along_mm,
+                    int points_through);
 
-// A strand's outline and elements come from its corner lattice: (points[0]+1) x (points[1]+1) corners, along fastest, each
-// the mean of the corners that the adjacent particle domains (parallelograms x +- F spacing/2) put there.
+// A strand's outline and elements come from its corner lattice: (points[0]+1) x (points[1]+1) corners, along fastest,
+// each the mean of the corners that the adjacent particle domains (parallelograms x +- F spacing/2) put there.
 std::vector<Vec<2>> corners(const Strand<2>& strand);
 
 // Unit grain direction of a point: F a0 / |F a0|.

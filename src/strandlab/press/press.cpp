@@ -28,7 +28,8 @@ double closing_speed(double time_s, double speed, double ramp_s) {
 }
 
 void check(const Schedule& schedule) {
-  if (!(schedule.speed_m_s > 0)) throw InputError(fmt::format("press: speed {} m/s; it must be positive", schedule.speed_m_s));
+  if (!(schedule.speed_m_s > 0))
+    throw InputError(fmt::format("press: speed {} m/s; it must be positive", schedule.speed_m_s));
   if (schedule.compactions.empty()) throw InputError("press: no compactions are asked for");
   double before = -1;
   for (double c : schedule.compactions) {
@@ -50,8 +51,10 @@ class Press {
     std::vector<mpm::Body<Dim>> bodies;
     for (const auto& strand : state_.panel.strands) bodies.push_back(mpm::body_of(strand));
     engine_.emplace(bodies, setup.grid, setup.engine);
-    if (resume) engine_->set_platens(resume->engine.bottom, resume->engine.top);
-    else engine_->set_platens({mat.bottom_mm, 0}, {mat.top_mm, 0});
+    if (resume)
+      engine_->set_platens(resume->engine.bottom, resume->engine.top);
+    else
+      engine_->set_platens({mat.bottom_mm, 0}, {mat.top_mm, 0});
     if (resume) engine_->resume(resume->engine);
     const double distance = state_.panel.initial_thickness_mm * schedule.compactions.back();
     ramp_s_ = schedule.ramp_time_fraction * distance / (schedule.speed_m_s * kMmPerM);
@@ -113,8 +116,10 @@ class Press {
 
   void advance() {
     const double v = closing_speed(engine_->state().time_s, schedule_.speed_m_s * kMmPerM, ramp_s_);
-    if (schedule_.symmetric) engine_->set_platen_velocities(0.5 * v, -0.5 * v);
-    else engine_->set_platen_velocities(0, -v);
+    if (schedule_.symmetric)
+      engine_->set_platen_velocities(0.5 * v, -0.5 * v);
+    else
+      engine_->set_platen_velocities(0, -v);
     engine_->step();
     auto& sum = state_.pending;
     const double dt = engine_->state().time_step_s;
@@ -207,14 +212,16 @@ class Press {
   std::vector<std::string> warnings() const {
     std::vector<std::string> w;
     if (state_.worst_kinetic > kKineticLimit) {
-      w.push_back(fmt::format("The press closed too fast: the energy of the strands' motion reached {:.1f} % of the internal "
-                              "energy (limit {:.0f} %). Lower press.speed_m_s.",
-                              100 * state_.worst_kinetic, 100 * kKineticLimit));
+      w.push_back(
+          fmt::format("The press closed too fast: the energy of the strands' motion reached {:.1f} % of the internal "
+                      "energy (limit {:.0f} %). Lower press.speed_m_s.",
+                      100 * state_.worst_kinetic, 100 * kKineticLimit));
     }
     if (state_.worst_imbalance > kForceLimit) {
-      w.push_back(fmt::format("The two platens felt forces that differed by up to {:.0f} % (limit {:.0f} %): the mat was not "
-                              "pressed evenly. Lower press.speed_m_s.",
-                              100 * state_.worst_imbalance, 100 * kForceLimit));
+      w.push_back(
+          fmt::format("The two platens felt forces that differed by up to {:.0f} % (limit {:.0f} %): the mat was not "
+                      "pressed evenly. Lower press.speed_m_s.",
+                      100 * state_.worst_imbalance, 100 * kForceLimit));
     }
     if (!state_.records.empty() && std::abs(state_.records.back().balance_error()) > 0.01) {
       w.push_back(fmt::format("The energy balance is off by {:.1f} % of the platens' work.",
@@ -243,8 +250,9 @@ Setup<Dim> setup(const Panel<Dim>& mat, const Resolution& resolution, mpm::Side 
   Setup<Dim> s;
   s.engine = engine;
   const int y = Dim - 1;
-  const int rows = 1 + std::max_element(mat.strands.begin(), mat.strands.end(),
-                                        [](const auto& a, const auto& b) { return a.row < b.row; })->row;
+  const int rows = 1 + std::max_element(mat.strands.begin(), mat.strands.end(), [](const auto& a, const auto& b) {
+                         return a.row < b.row;
+                       })->row;
   const double row_height = mat.initial_thickness_mm / rows;
   s.grid.lo.setZero();
   s.grid.hi[0] = mat.length_mm;

@@ -12,9 +12,9 @@
 namespace strandlab::press {
 
 struct Schedule {
-  double speed_m_s = 16;             // closing speed of the platens
-  double ramp_time_fraction = 0.02;  // of the pressing time, smooth start from rest
-  bool symmetric = false;            // both platens move; else the top one
+  double speed_m_s = 16;                                   // closing speed of the platens
+  double ramp_time_fraction = 0.02;                        // of the pressing time, smooth start from rest
+  bool symmetric = false;                                  // both platens move; else the top one
   std::vector<double> compactions{0, 0.1, 0.2, 0.3, 0.4};  // increasing, < 1: the state is kept at each
   double record_interval_compaction = 0.001;
 };
@@ -35,9 +35,9 @@ struct Record {
 template <int Dim>
 struct Checkpoint {
   Panel<Dim> panel;
-  mpm::EngineState engine;        // step, time step, accumulated energies...
+  mpm::EngineState engine;  // step, time step, accumulated energies...
   std::vector<Record> records;
-  Record pending;                 // sums of the record interval in progress
+  Record pending;  // sums of the record interval in progress
   int snapshots_done = 0;
   // Watch on inertia: platen impulses over the current two transits, and the worst of each measure so far.
   double balance_time_s = 0, balance_top = 0, balance_bottom = 0;
@@ -55,8 +55,9 @@ struct Progress {
 template <int Dim>
 struct Sink {
   std::function<void(const Panel<Dim>&, int index)> snapshot;  // at compactions[index]
-  std::function<void(const Checkpoint<Dim>&)> checkpoint;      // every checkpoint_interval_s of wall time and at each snapshot
-  std::function<void(const Progress&)> progress;               // a few times a second
+  std::function<void(const Checkpoint<Dim>&)>
+      checkpoint;                                 // every checkpoint_interval_s of wall time and at each snapshot
+  std::function<void(const Progress&)> progress;  // a few times a second
   double checkpoint_interval_s = 30;
 };
 
@@ -75,8 +76,8 @@ struct Outcome {
 // Cells of the background grid. Particles: two per cell and axis (make_panel with spacing_along = cell/2).
 struct Resolution {
   int cells_through_strand = 3;
-  double cell_aspect = 1;       // length of a cell along the panel over its height
-  bool follow_platens = true;   // the cells' height stays proportional to the platen gap
+  double cell_aspect = 1;      // length of a cell along the panel over its height
+  bool follow_platens = true;  // the cells' height stays proportional to the platen gap
 };
 
 template <int Dim>

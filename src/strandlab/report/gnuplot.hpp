@@ -27,8 +27,13 @@ struct Plot {
 // (dark) to the last (light) of a sequential map.
 std::string gnuplot_script(const Plot& plot);
 
-// Draws a plot as PNG, replacing `png` atomically. Returns a sentence for the log where gnuplot is missing or fails;
-// throws as io::write_atomically(). `program` is the gnuplot to run.
+// Runs a gnuplot program that prints a PNG to its standard output and replaces `png` atomically by it. Returns a
+// sentence for the log where gnuplot is missing or fails; throws as io::write_atomically(). `program` is the gnuplot to
+// run.
+std::optional<std::string> draw_script(const std::string& script, const std::filesystem::path& png,
+                                       const std::string& program = "gnuplot");
+
+// The same for a plot; nothing is drawn, and the sentence says so, where it has no points.
 std::optional<std::string> draw(const Plot& plot, const std::filesystem::path& png,
                                 const std::string& program = "gnuplot");
 

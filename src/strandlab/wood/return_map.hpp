@@ -1,13 +1,13 @@
 // Closest-point return to a quadratic yield surface with power-law hardening, for one material point or a pack of them.
 #pragma once
 
-// Written for one point (ScalarOps) and for SIMD packs (the engine's PackOps) alike: Ops names the value type and the few
-// operations on it. Plain arrays only, so that it can be compiled for several instruction sets.
+// Written for one point (ScalarOps) and for SIMD packs (the engine's PackOps) alike: Ops names the value type and the
+// few operations on it. Plain arrays only, so that it can be compiled for several instruction sets.
 namespace strandlab::wood {
 
-// Yield surface f = q/J - (1 + (K/Y_R) alpha^n), q^2 = tau^T P tau, in a basis z = to_modes tau in which both the elastic
-// energy, |z|^2/2, and P = diag(lambda) are diagonal. N = 4: components (11, 22, 33, 13) of an aligned strand; N = 6:
-// (11, 22, 33, 13, 23, 12).
+// Yield surface f = q/J - (1 + (K/Y_R) alpha^n), q^2 = tau^T P tau, in a basis z = to_modes tau in which both the
+// elastic energy, |z|^2/2, and P = diag(lambda) are diagonal. N = 4: components (11, 22, 33, 13) of an aligned strand;
+// N = 6: (11, 22, 33, 13, 23, 12).
 template <int N>
 struct YieldModes {
   double stiffness[N][N];   // MPa, tau = stiffness * strain
@@ -32,9 +32,10 @@ struct ScalarOps {
   }
 };
 
-// Return mapping. On entry tau is the trial (Kirchhoff) stress, J the total volume ratio, alpha the hardening variable and
-// radius = 1 + (K/Y) alpha^n. Where the trial lies outside, tau, alpha and radius are updated to the closest point in
-// the energy norm (associated flow, backward Euler); the return value is the dissipation tau : d eps_p per reference volume, mJ/mm^3.
+// Return mapping. On entry tau is the trial (Kirchhoff) stress, J the total volume ratio, alpha the hardening variable
+// and radius = 1 + (K/Y) alpha^n. Where the trial lies outside, tau, alpha and radius are updated to the closest point
+// in the energy norm (associated flow, backward Euler); the return value is the dissipation tau : d eps_p per reference
+// volume, mJ/mm^3.
 //
 // With mu = d lambda / q the returned modes are z_i = z_i^tr / (1 + mu lambda_i), and the one unknown mu solves
 //   r(mu) = q(mu) - J (1 + (K/Y) (alpha_0 + mu q(mu)/Y)^n) = 0,
@@ -62,8 +63,8 @@ template <class Ops, int N>
   dq = dq / q;
   for (int iteration = 0; iteration < 60; ++iteration) {
     const T a = alpha0 + mu * q / m.Y;
-    const T h_slope = Ops::hardening_slope(m.K_over_Y, m.exponent, a);      // d(hardening)/d alpha
-    const T h = 1.0 + h_slope * a / m.exponent;                        // 1 + (K/Y) a^n
+    const T h_slope = Ops::hardening_slope(m.K_over_Y, m.exponent, a);  // d(hardening)/d alpha
+    const T h = 1.0 + h_slope * a / m.exponent;                         // 1 + (K/Y) a^n
     const T r = q - J * h;
     const T dr = dq - J * h_slope * (q + mu * dq) / m.Y;
     const auto converged = Ops::absolute(r) <= 1e-12 * q;
