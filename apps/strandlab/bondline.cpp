@@ -17,6 +17,7 @@
 #include "strandlab/bondline/plots.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/write_file.hpp"
+#include "strandlab/report/gnuplot.hpp"
 
 namespace strandlab::app {
 namespace {
@@ -86,6 +87,19 @@ void print_comparisons(const bondline::Analysis& analysis) {
   }
 }
 
+// Number of pictures drawn; the first that cannot be drawn is reported, and the others are not tried.
+int draw(const std::vector<bondline::Picture>& pictures, const fs::path& folder) {
+  int drawn = 0;
+  for (const auto& picture : pictures) {
+    if (const auto problem = report::draw_script(picture.script, folder / picture.file_name)) {
+      fmt::print(stderr, "strandlab: {}\n", *problem);
+      return drawn;
+    }
+    ++drawn;
+  }
+  return drawn;
+}
+
 void write_results(const Arguments& a, const bondline::Analysis& analysis, const fs::path& folder) {
   fs::create_directories(folder);
   specimen_table(analysis).write(folder / "specimens.csv");
@@ -94,10 +108,9 @@ void write_results(const Arguments& a, const bondline::Analysis& analysis, const
   const fs::path input = a.file;
   const fs::path json = folder / (input.stem().string() + ".json");
   write_file(json, bondline::to_json(analysis, input.filename().string()));
-  const auto plots = bondline::draw(analysis, folder);
-  if (!plots.problem.empty()) fmt::print(stderr, "strandlab: {}\n", plots.problem);
+  const int plots = draw(bondline::pictures(analysis), folder);
   fmt::print("written: {}: specimens.csv, groups.csv, comparisons.csv, {}, {} plots\n", folder.string(),
-             json.filename().string(), plots.files.size());
+             json.filename().string(), plots);
 }
 
 void analyse(const Arguments& a) {

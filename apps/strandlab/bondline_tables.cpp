@@ -18,7 +18,7 @@ io::CsvCell cell(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? io::CsvCell(*value) : io::CsvCell(std::string());
 }
 
-io::CsvCell cell(int value) {
+io::CsvCell count(int value) {
   return static_cast<long long>(value);
 }
 
@@ -46,7 +46,7 @@ void add_result(const bondline::Evaluated& s, Cells& cells) {
 void add_slope(const bondline::Slope& slope, Cells& cells) {
   const bool known = slope.problem.empty();
   const auto if_known = [&](double value) { return cell(known ? std::optional(value) : std::nullopt); };
-  cells.insert(cells.end(), {if_known(slope.r_squared), cell(slope.low_N), cell(slope.high_N), cell(slope.points),
+  cells.insert(cells.end(), {if_known(slope.r_squared), cell(slope.low_N), cell(slope.high_N), count(slope.points),
                              if_known(slope.toe_mm), fmt::format("{}", fmt::join(slope.flags, "; "))});
 }
 
@@ -92,7 +92,7 @@ io::CsvTable group_table(const bondline::Analysis& analysis) {
                       "high_mm_per_MPa", "t", "p", "mean_k_N_per_mm", "compliance_t_of_mean_k_mm_per_MPa"});
   for (const auto& g : analysis.groups) {
     const auto& c = g.compliance_t;
-    table.add_row({g.name, g.family, cell(c.n), cell(g.excluded), cell(c.mean), cell(c.sd), cell(c.low), cell(c.high),
+    table.add_row({g.name, g.family, count(c.n), count(g.excluded), cell(c.mean), cell(c.sd), cell(c.low), cell(c.high),
                    cell(c.t), cell(c.p), cell(g.mean_k_N_per_mm), cell(g.compliance_of_mean)});
   }
   return table;
@@ -106,8 +106,8 @@ io::CsvTable comparison_table(const bondline::Analysis& analysis) {
     if (!family.anova) continue;
     const auto& a = *family.anova;
     const auto& w = *family.welch;
-    table.add_row({family.name, "anova F", none, none, none, none, none, cell(a.F), cell(a.df_between),
-                   cell(a.df_within), cell(a.p), none});
+    table.add_row({family.name, "anova F", none, none, none, none, none, cell(a.F), count(a.df_between),
+                   count(a.df_within), cell(a.p), none});
     table.add_row({family.name, "Welch anova F", none, none, none, none, none, cell(w.F), cell(w.df_between),
                    cell(w.df_within), cell(w.p), none});
     for (const auto& pair : family.pairs)

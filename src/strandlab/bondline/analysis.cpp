@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "strandlab/core/error.hpp"
 
@@ -49,27 +48,23 @@ Evaluated evaluate(const Specimen& specimen, const Options& options) {
 
 // Mean stiffness and geometry of all specimens that have one, and its 1/D_t.
 void evaluate_mean_k(const std::vector<const Evaluated*>& members, Formula formula, Group& group) {
-  Geometry mean{0, 0, 0.0, 0.0, 0, 0, 0, 0, 0, 0};
-  double k = 0;
-  for (const Evaluated* member : members) {
-    if (!member->specimen.k_N_per_mm || !member->specimen.problem.empty()) continue;
-    const Geometry& g = member->specimen.geometry;
-    for (auto field : {&Geometry::E1_MPa, &Geometry::E2_MPa, &Geometry::t1_mm, &Geometry::t2_mm, &Geometry::W_mm,
-                       &Geometry::l_mm, &Geometry::L1_mm, &Geometry::L2_mm})
-      mean.*field += g.*field;
-    *mean.G1_MPa += g.shear1_MPa();
-    *mean.G2_MPa += g.shear2_MPa();
-    k += *member->specimen.k_N_per_mm;
-    ++group.n_mean_k;
-  }
-  group.mean_k_N_per_mm = group.n_mean_k > 0 ? k / group.n_mean_k : std::numeric_limits<double>::quiet_NaN();
-  if (group.n_mean_k == 0) return;
+  std::vector<const Specimen*> measured;
+  for (const Evaluated* member : members)
+    if (member->specimen.k_N_per_mm && member->specimen.problem.empty()) measured.push_back(&member->specimen);
+  group.n_mean_k = static_cast<int>(measured.size());
+  const auto mean = [&](const auto& value) {
+    double sum = 0;
+    for (const Specimen* specimen : measured) sum += value(*specimen);
+    return sum / group.n_mean_k;
+  };
+  group.mean_k_N_per_mm = mean([](const Specimen& s) { return *s.k_N_per_mm; });
+  if (measured.empty()) return;
   for (auto field : {&Geometry::E1_MPa, &Geometry::E2_MPa, &Geometry::t1_mm, &Geometry::t2_mm, &Geometry::W_mm,
                      &Geometry::l_mm, &Geometry::L1_mm, &Geometry::L2_mm})
-    mean.*field /= group.n_mean_k;
-  *mean.G1_MPa /= group.n_mean_k;
-  *mean.G2_MPa /= group.n_mean_k;
-  group.compliance_of_mean = glue_compliance(mean, group.mean_k_N_per_mm, formula).value_mm_per_MPa;
+    group.mean_geometry.*field = mean([field](const Specimen& s) { return s.geometry.*field; });
+  group.mean_geometry.G1_MPa = mean([](const Specimen& s) { return s.geometry.shear1_MPa(); });
+  group.mean_geometry.G2_MPa = mean([](const Specimen& s) { return s.geometry.shear2_MPa(); });
+  group.compliance_of_mean = glue_compliance(group.mean_geometry, group.mean_k_N_per_mm, formula).value_mm_per_MPa;
 }
 
 std::vector<double> values_of(const Analysis& analysis, const Group& group) {

@@ -62,6 +62,7 @@ struct Group {
   Summary compliance_t;                      // mm/MPa, of the specimens not excluded
   int n_mean_k = 0;                          // specimens with a stiffness, excluded ones too
   double mean_k_N_per_mm = 0;                // NaN without any
+  Geometry mean_geometry;                    // of those specimens
   std::optional<double> compliance_of_mean;  // 1/D_t of the mean stiffness with the mean geometry, mm/MPa
 };
 

@@ -169,13 +169,11 @@ std::string gnuplot_script(const Plot& plot) {
   return script + "plot " + curves + "\n";
 }
 
-std::optional<std::string> draw(const Plot& plot, const std::filesystem::path& png, const std::string& program) {
-  bool empty = true;
-  for (const auto& curve : plot.curves) empty = empty && curve.x.empty();
-  if (empty) return fmt::format("no picture {}: nothing to plot yet", png.string());
-  std::filesystem::path script = png;
-  script.replace_extension(".gnuplot");
-  const ScriptFile file(script, gnuplot_script(plot));
+std::optional<std::string> draw_script(const std::string& script, const std::filesystem::path& png,
+                                       const std::string& program) {
+  std::filesystem::path beside = png;
+  beside.replace_extension(".gnuplot");
+  const ScriptFile file(beside, script);
   const Finished gnuplot = run(program, file.name());
   if (gnuplot.status == -1) {
     return fmt::format("no picture {}: cannot start {} ({}); install the package gnuplot-nox to get plots",
@@ -186,6 +184,13 @@ std::optional<std::string> draw(const Plot& plot, const std::filesystem::path& p
   }
   io::write_atomically(png, gnuplot.out);
   return std::nullopt;
+}
+
+std::optional<std::string> draw(const Plot& plot, const std::filesystem::path& png, const std::string& program) {
+  bool empty = true;
+  for (const auto& curve : plot.curves) empty = empty && curve.x.empty();
+  if (empty) return fmt::format("no picture {}: nothing to plot yet", png.string());
+  return draw_script(gnuplot_script(plot), png, program);
 }
 
 }  // namespace strandlab::report

@@ -133,6 +133,7 @@ double random_core_modulus_MPa(const std::vector<Row>& rows, double core_modulus
 double strand_efficiency(const ShearLag& s, double compliance) {
   const double V_m = 1 - s.V_w;
   if (!(V_m > 0)) return 1;
+  if (!(s.V_w > 0)) return 0;
   const double stiffness = 1 / (s.E_m_MPa * V_m) + 1 / (s.E_w_MPa * s.V_w);
   const double shear = s.V_w / (3 * s.G_w_MPa) + V_m / (3 * s.G_m_MPa) + compliance / s.spacing_mm;
   if (!(shear > 0))

@@ -64,7 +64,8 @@ struct ShearLag {
   double E_m_MPa = 1500, G_m_MPa = 500;           // matrix; V_m = 1 - V_w
   double length_mm = 150, spacing_mm = 0.8;       // of strands: along, and t between their mid planes
 };
-// Stress-transfer efficiency 1 - tanh(gamma)/gamma of the strands; 1 without matrix (a row without gaps).
+// Stress-transfer efficiency 1 - tanh(gamma)/gamma of the strands; 1 without matrix (a row without gaps),
+// 0 without strands.
 double strand_efficiency(const ShearLag& strands, double compliance_t_mm_per_MPa);
 double shear_lag_modulus_MPa(const ShearLag& strands, double compliance_t_mm_per_MPa);
 

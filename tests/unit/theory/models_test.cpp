@@ -89,6 +89,8 @@ TEST(Theory, ShearLagLimits) {
   EXPECT_NEAR(shear_lag_modulus_MPa(strands, 1e9), 1500 * .17, 1e-3);  // debonded strands neither
   strands.V_w = 1;
   EXPECT_EQ(shear_lag_modulus_MPa(strands, .01), 9936);  // a row without gaps
+  strands.V_w = 0;
+  EXPECT_EQ(shear_lag_modulus_MPa(strands, .01), 1500);  // a row without strands
   EXPECT_THROW(strand_efficiency({9936, 743, .83, 1500, 500, 80, .8}, -.01), InputError);
 }
 
