@@ -612,6 +612,44 @@ struct Engine<Dim>::Impl {
     }
   }
 
+  // A step whose nodes take their velocity from outside.
+  void impose(double dt, const std::function<Vec<Dim>(const Vec<Dim>&)>& velocity) {
+    state.time_step_s = dt;
+    if (!windows_valid || *std::max_element(drift.begin(), drift.end()) > kMaxDrift) make_windows();
+    const Frame<Dim> f = frame();
+    const double filtered_before = state.energies.filter;
+    scatter(f);
+    for (const auto& w : windows) impose_on_nodes(w.field, f, velocity);
+    gather(f);
+    state.energies.filter = filtered_before;
+    advance(f);
+    state.time_step_s = time_step();  // for steps that follow
+  }
+
+  void impose_on_nodes(const WindowStore& w, const Frame<Dim>& f,
+                       const std::function<Vec<Dim>(const Vec<Dim>&)>& velocity) {
+    for (int p = 0; p < w.pencils(); ++p) {
+      Vec<Dim> x;
+      for (int a = 0; a < Dim - 1; ++a) {
+        const int along = a == 0 ? p % w.window.count[0] : p / w.window.count[0];
+        x[a] = f.origin[a] + (w.window.first[a] + along) * f.cell[a];
+      }
+      for (int row = w.lo[p]; row <= w.hi[p]; ++row) {
+        double* r = nodes.data() + static_cast<std::size_t>(w.base[p] + row) * kRecord;
+        const double mass = r[0];
+        x[Dim - 1] = f.origin[Dim - 1] + row * f.cell[Dim - 1];
+        const Vec<Dim> v = velocity(x);
+        Vec<Dim> before = v;
+        for (int a = 0; a < Dim && mass > 0; ++a) before[a] = r[1 + a] / mass;
+        for (int a = 0; a < Dim; ++a) {
+          r[a] = v[a];
+          r[Dim + a] = v[a] - before[a];
+        }
+        r[7] = mass;
+      }
+    }
+  }
+
   void update_time_step() {
     state.time_step_s = time_step();
     if (!(state.time_step_s > 1e-4 * first_time_step)) {
@@ -965,6 +1003,10 @@ void Engine<Dim>::resume(const EngineState& state) {
 template <int Dim>
 void Engine<Dim>::step() {
   impl_->step();
+}
+template <int Dim>
+void Engine<Dim>::impose(double time_step_s, const std::function<Vec<Dim>(const Vec<Dim>&)>& velocity) {
+  impl_->impose(time_step_s, velocity);
 }
 template <int Dim>
 const EngineState& Engine<Dim>::state() const {

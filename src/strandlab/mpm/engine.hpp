@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -115,6 +116,11 @@ class Engine {
   // One time step. Throws RunError (step, time, body, position) when a particle leaves the grid, inverts (det F <= 0)
   // or its stress is not finite, or the time step underflows; the bodies then hold the failed state.
   void step();
+
+  // One step of the given length in which the grid moves with a given velocity (mm/s at a point in mm) and not by its
+  // forces: particles move, deform and are stressed as in step(). Rollers, contact and platens do not act, and of the
+  // energies only the plastic one is booked. For prescribed deformations.
+  void impose(double time_step_s, const std::function<Vec<Dim>(const Vec<Dim>&)>& velocity);
 
   const EngineState& state() const;
   Energies energies() const;                       // with kinetic and elastic evaluated now

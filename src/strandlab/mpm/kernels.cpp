@@ -103,6 +103,11 @@ STRANDLAB_INLINE double pencil_gradient(const Stencil<Dim>& s, int axis, int q, 
 template <int Dim>
 inline constexpr int kPencils = Dim == 2 ? 3 : 9;
 
+// Asks for the next block while this one is worked on; a block is too long for the hardware to see the stream.
+STRANDLAB_INLINE void prefetch(const double* block, long stride) {
+  for (long i = 0; i < stride; i += kBlock) __builtin_prefetch(block + stride + i);
+}
+
 template <int N>
 STRANDLAB_INLINE void load_packs(const double* from, Pack (&to)[N]) {
   for (int i = 0; i < N; ++i) to[i] = load(from + i * kBlock);
@@ -283,7 +288,9 @@ STRANDLAB_INLINE void scatter_surface(const SurfaceView<Dim>& face, int pack, co
   constexpr int kSize = kSurfaceRecord<Dim>;
   Pack x[Dim], F[Dim * Dim], offset[Dim], area[Dim];
   const int* where = face.where + pack * kBlock;
+  const bool contiguous = where[kBlock - 1] - where[0] == kBlock - 1;  // a strand's top or bottom: one block
   const auto collect = [&](int component) {
+    if (contiguous) return load(body.blocks + where[0] + component * kBlock);
     alignas(64) double lane[kBlock];
     for (int l = 0; l < kBlock; ++l) lane[l] = body.blocks[where[l] + component * kBlock];
     return load(lane);
@@ -341,6 +348,7 @@ void scatter(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& fram
   const long stride = static_cast<long>(C::count(body.components)) * kBlock;
   for (int b = tile.block_begin; b < tile.block_end; ++b) {
     const double* block = body.blocks + b * stride;
+    prefetch(block, stride);
     Pack x[Dim], v[Dim], F[Dim * Dim], tau[6], stretch[Dim];
     load_packs(block, x);
     load_packs(block + C::v * kBlock, v);
@@ -373,16 +381,17 @@ STRANDLAB_INLINE double dot(const double* a, const double* b) {
   return s;
 }
 
-// One face of a field at a node: unit outward normal and signed distance from the node to the face along it.
+// One face of a field at a node: area-weighted outward normal N = W n, and W times the signed distance from the node to the
+// face along it.
 template <int Dim>
 struct NodeFace {
-  double n[Dim];
-  double distance;  // (x_face - x_node).n
+  const double* N;
+  double W, size2, distance_W;
 };
 
 template <int Dim>
 struct Meeting {  // a velocity field at a node where several meet
-  double mass, inverse_mass;
+  double inverse_mass;
   double start[Dim];  // velocity at the start of the step, for the work of the impulses
   double trial[Dim];  // after forces, before contact
   double v[Dim];      // now
@@ -396,6 +405,7 @@ template <int Dim>
 struct Pair {
   int a, b;
   double n[Dim];    // from a to b
+  double gap;       // between the faces, negative where they overlap
   double target;    // separation velocity that just keeps the faces from crossing
   double friction;
   double normal;    // impulse so far, compression positive
@@ -413,40 +423,50 @@ STRANDLAB_INLINE void find_faces(const PencilField& field, int row, const double
     if (!(W > 0)) continue;
     const double size2 = dot<Dim>(s, s);
     if (size2 < 0.25 * W * W) continue;  // normals cancel: an edge folded onto a symmetry plane
-    const double inverse = 1 / __builtin_sqrt(size2);
-    NodeFace<Dim>& face = m.face[m.faces++];
-    for (int a = 0; a < Dim; ++a) face.n[a] = s[a] * inverse;
-    face.distance = (s[Dim + 1] - dot<Dim>(s, x)) / W;
+    m.face[m.faces++] = {s, W, size2, s[Dim + 1] - dot<Dim>(s, x)};
   }
 }
 
-// Of all pairs of faces that oppose each other the one that is furthest apart separates the bodies. Returns false if there
-// is none or the gap is too wide to close in a step.
+// Of all pairs of faces that oppose each other (by more than 120 degrees) the one that is furthest apart separates the bodies.
+// Returns false if there is none or the gap is too wide to close in a step. pair.n is not yet normalised: see finish_pair.
 template <int Dim>
-STRANDLAB_INLINE bool find_pair(const Meeting<Dim>& a, const Meeting<Dim>& b, double reach, double dt, Pair<Dim>& pair) {
-  double gap = -1e300;
+STRANDLAB_INLINE bool find_pair(const Meeting<Dim>& a, const Meeting<Dim>& b, double reach, Pair<Dim>& pair) {
+  pair.gap = -1e300;
   const NodeFace<Dim>*best_a = nullptr, *best_b = nullptr;
   for (int i = 0; i < a.faces; ++i) {
     for (int j = 0; j < b.faces; ++j) {
-      if (dot<Dim>(a.face[i].n, b.face[j].n) > -0.5) continue;
-      const double g = -(a.face[i].distance + b.face[j].distance);
-      if (g > gap) {
-        gap = g;
-        best_a = &a.face[i];
-        best_b = &b.face[j];
+      const NodeFace<Dim>&fa = a.face[i], &fb = b.face[j];
+      const double d = dot<Dim>(fa.N, fb.N);
+      if (d > 0 || d * d < 0.25 * fa.size2 * fb.size2) continue;
+      const double gap = -(fa.distance_W * fb.W + fb.distance_W * fa.W) / (fa.W * fb.W);
+      if (gap > pair.gap) {
+        pair.gap = gap;
+        best_a = &fa;
+        best_b = &fb;
       }
     }
   }
-  if (!best_a || gap > reach) return false;
-  double size2 = 0;
-  for (int d = 0; d < Dim; ++d) {
-    pair.n[d] = best_a->n[d] - best_b->n[d];
-    size2 += pair.n[d] * pair.n[d];
-  }
-  const double inverse = 1 / __builtin_sqrt(size2);
-  for (int d = 0; d < Dim; ++d) pair.n[d] *= inverse;
-  pair.target = gap > 0 ? -gap / dt : 0;
+  if (!best_a || pair.gap > reach) return false;
+  for (int d = 0; d < Dim; ++d) pair.n[d] = best_a->N[d] * best_b->W - best_b->N[d] * best_a->W;
   return true;
+}
+
+// Whether the trial velocities would let the faces cross within the step. Needs no normalised normal.
+template <int Dim>
+STRANDLAB_INLINE bool would_cross(const Meeting<Dim>& a, const Meeting<Dim>& b, const Pair<Dim>& pair, double dt) {
+  double approach = 0;
+  for (int d = 0; d < Dim; ++d) approach += (a.v[d] - b.v[d]) * pair.n[d];
+  if (!(approach > 0)) return false;
+  if (pair.gap <= 0) return true;
+  const double reach = approach * dt;
+  return reach * reach > pair.gap * pair.gap * dot<Dim>(pair.n, pair.n);
+}
+
+template <int Dim>
+STRANDLAB_INLINE void finish_pair(double dt, Pair<Dim>& pair) {
+  const double inverse = 1 / __builtin_sqrt(dot<Dim>(pair.n, pair.n));
+  for (int d = 0; d < Dim; ++d) pair.n[d] *= inverse;
+  pair.target = pair.gap > 0 ? -pair.gap / dt : 0;
 }
 
 // One pass over the pairs at a node, all from the same velocities: impulses so far are corrected towards
@@ -495,8 +515,12 @@ STRANDLAB_INLINE double contact_pass(Meeting<Dim>* m, int fields, Pair<Dim>* pai
 template <int Dim>
 STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* pairs, int count, const Frame<Dim>& frame,
                               PencilResult& result) {
-  for (int i = 0; i < fields; ++i) m[i].partners = 0;
+  for (int i = 0; i < fields; ++i) {
+    m[i].inverse_mass = 1 / m[i].record[7];
+    m[i].partners = 0;
+  }
   for (int p = 0; p < count; ++p) {
+    finish_pair<Dim>(frame.dt, pairs[p]);
     ++m[pairs[p].a].partners;
     ++m[pairs[p].b].partners;
     pairs[p].normal = 0;
@@ -545,9 +569,7 @@ template <int Dim>
 STRANDLAB_INLINE bool mirror_meeting(const PencilField& field, int k, int row, const GridView<Dim>& grid, Meeting<Dim>& m) {
   if (row < field.mirror[k].row_lo || row >= field.mirror[k].row_hi) return false;
   m.record = grid.nodes + kRecord * static_cast<long>(field.mirror[k].base + row);
-  m.mass = m.record[7];
-  if (!(m.mass > 0)) return false;
-  m.inverse_mass = 1 / m.mass;
+  if (!(m.record[7] > 0)) return false;
   for (int d = 0; d < Dim; ++d) {
     const double sign = d == Dim - 1 ? 1 : -1;
     m.trial[d] = m.v[d] = sign * m.record[d];
@@ -561,17 +583,18 @@ template <int Dim>
 STRANDLAB_INLINE bool platen_pair(const Meeting<Dim>& field, const Frame<Dim>& frame, int k, double node_height, double reach,
                                   Pair<Dim>& pair) {
   const double direction = k == 0 ? -1 : 1;  // from the field to the platen
-  double gap = 1e300;
+  pair.gap = 1e300;
   for (int f = 0; f < field.faces; ++f) {
     const NodeFace<Dim>& face = field.face[f];
-    if (face.n[Dim - 1] * direction < 0.5) continue;
-    const double to_wall = (frame.platen[k].position - node_height) * direction - face.distance * face.n[Dim - 1] * direction;
-    gap = to_wall < gap ? to_wall : gap;
+    const double along = face.N[Dim - 1] * direction;
+    if (along < 0 || along * along < 0.25 * face.size2) continue;
+    const double to_wall =
+        (frame.platen[k].position - node_height) * direction - face.distance_W * along / (face.W * face.W);
+    pair.gap = 2 * to_wall < pair.gap ? 2 * to_wall : pair.gap;
   }
-  if (gap > reach) return false;
+  if (pair.gap > reach) return false;
   for (int d = 0; d < Dim; ++d) pair.n[d] = 0;
   pair.n[Dim - 1] = direction;
-  pair.target = gap > 0 ? -2 * gap / frame.dt : 0;
   return true;
 }
 
@@ -671,9 +694,8 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
   }
   if (fields < least) return;
   const int real = fields;
+  const bool alone = real == 2 && least == 2;  // the usual case: two bodies, nothing else
   for (int i = 0; i < real; ++i) {
-    m[i].mass = m[i].record[7];
-    m[i].inverse_mass = 1 / m[i].mass;
     for (int d = 0; d < Dim; ++d) {
       m[i].trial[d] = m[i].v[d] = m[i].record[d];
       m[i].start[d] = m[i].record[d] - m[i].record[Dim + d];
@@ -685,7 +707,8 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
   for (int i = 0; i < real; ++i) {
     for (int j = i + 1; j < real; ++j) {
       Pair<Dim>& pair = pairs[count];
-      if (!find_pair<Dim>(m[i], m[j], reach, frame.dt, pair)) continue;
+      if (!find_pair<Dim>(m[i], m[j], reach, pair)) continue;
+      if (alone && !would_cross<Dim>(m[i], m[j], pair, frame.dt)) return;
       pair.a = i;
       pair.b = j;
       pair.friction = grid.friction;
@@ -884,6 +907,7 @@ void gather(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame
   Pack plastic{}, kinetic{}, drift[Dim] = {};
   for (int b = tile.block_begin; b < tile.block_end; ++b) {
     double* block = body.blocks + b * stride;
+    prefetch(block, stride);
     Pack x[Dim], F[Dim * Dim], stretch[Dim];
     load_packs(block, x);
     load_packs(block + C::F * kBlock, F);
