@@ -1,0 +1,26 @@
+// Numbers for docs/verification.md. A verification test states what it measured and what it allows:
+//
+//   #include "support/report.hpp"
+//   report("period of the first mode, 40 cells, against 2 L/c", error, "< 0.1 %");
+//   report("tension modulus, 1/D_t = 0.0021 mm/MPa, over the reference", ratio, "1 +- 0.01");
+//   report("friction work", work, "2 % of 3.12", "mJ");
+//
+// scripts/verification runs the tests and writes what they reported, in this order, to docs/verification.md. The
+// sentence is unique within its test: it is the key of the record. Reporting judges nothing; EXPECT_* beside it does.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <string>
+
+namespace strandlab {
+
+// `measured` in `unit` ("" for a ratio); `allowed` as a reader of the book wants to see it.
+inline void report(const std::string& what, double measured, const std::string& allowed, const std::string& unit = "") {
+  char number[32];
+  std::snprintf(number, sizeof number, "%.4g", measured);
+  testing::Test::RecordProperty("report:" + what, std::string(number) + "\t" + unit + "\t" + allowed);
+}
+
+}  // namespace strandlab
