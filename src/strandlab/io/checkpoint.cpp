@@ -514,15 +514,17 @@ std::optional<press::Checkpoint<Dim>> CheckpointStore::load(std::vector<std::str
   throw InputError(why);
 }
 
-#define STRANDLAB_INSTANTIATE(Dim)                                                                                 \
-  template void write_checkpoint(const press::Checkpoint<Dim>&, const std::string&, const std::filesystem::path&); \
-  template void write_panel(const Panel<Dim>&, const std::string&, const std::filesystem::path&);                  \
-  template press::Checkpoint<Dim> read_checkpoint(const std::filesystem::path&, const std::string&);               \
-  template Panel<Dim> read_panel(const std::filesystem::path&, const std::string&);                                \
-  template void CheckpointStore::save(const press::Checkpoint<Dim>&) const;                                        \
-  template std::optional<press::Checkpoint<Dim>> CheckpointStore::load(std::vector<std::string>*) const;
-STRANDLAB_INSTANTIATE(2)
-STRANDLAB_INSTANTIATE(3)
-#undef STRANDLAB_INSTANTIATE
+template void write_checkpoint(const press::Checkpoint<2>&, const std::string&, const std::filesystem::path&);
+template void write_panel(const Panel<2>&, const std::string&, const std::filesystem::path&);
+template press::Checkpoint<2> read_checkpoint(const std::filesystem::path&, const std::string&);
+template Panel<2> read_panel(const std::filesystem::path&, const std::string&);
+template void CheckpointStore::save(const press::Checkpoint<2>&) const;
+template std::optional<press::Checkpoint<2>> CheckpointStore::load(std::vector<std::string>*) const;
+template void write_checkpoint(const press::Checkpoint<3>&, const std::string&, const std::filesystem::path&);
+template void write_panel(const Panel<3>&, const std::string&, const std::filesystem::path&);
+template press::Checkpoint<3> read_checkpoint(const std::filesystem::path&, const std::string&);
+template Panel<3> read_panel(const std::filesystem::path&, const std::string&);
+template void CheckpointStore::save(const press::Checkpoint<3>&) const;
+template std::optional<press::Checkpoint<3>> CheckpointStore::load(std::vector<std::string>*) const;
 
 }  // namespace strandlab::io

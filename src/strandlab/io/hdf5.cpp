@@ -249,7 +249,8 @@ std::string Reader::text_attribute(const char* name) const {
   if (H5Aread(attribute, stored, value.data()) < 0) {
     fail(fmt::format("attribute \"{}\" is damaged ({})", name, innermost_error()));
   }
-  return value.c_str();  // without the padding
+  value.resize(std::min(value.find('\0'), value.size()));  // the padding
+  return value;
 }
 
 std::int64_t Reader::integer_attribute(const char* name) const {

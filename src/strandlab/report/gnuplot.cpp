@@ -17,8 +17,6 @@
 #include "strandlab/io/atomic_file.hpp"
 #include "strandlab/report/colour_map.hpp"
 
-extern char** environ;
-
 namespace strandlab::report {
 namespace {
 

@@ -230,14 +230,10 @@ Morphology morphology(const Panel<2>& panel) {
 }
 
 io::CsvTable morphology_table(const std::vector<Morphology>& states) {
-  std::vector<std::string> columns{"compaction", "overlap_fraction", "largest_overlap_fraction", "void_fraction",
-                                   "outside_fraction"};
-  for (const std::string quantity : {"grain_angle", "strand_thickness_strain"}) {
-    const std::string unit = quantity == "grain_angle" ? "_deg" : "";
-    for (const char* statistic : {"_mean", "_sd", "_lowest", "_highest"})
-      columns.push_back(quantity + statistic + unit);
-  }
-  io::CsvTable table(columns);
+  io::CsvTable table({"compaction", "overlap_fraction", "largest_overlap_fraction", "void_fraction", "outside_fraction",
+                      "grain_angle_mean_deg", "grain_angle_sd_deg", "grain_angle_lowest_deg", "grain_angle_highest_deg",
+                      "strand_thickness_strain_mean", "strand_thickness_strain_sd", "strand_thickness_strain_lowest",
+                      "strand_thickness_strain_highest"});
   for (const auto& s : states) {
     std::vector<io::CsvCell> row{s.compaction, s.areas.overlap, s.areas.largest_overlap, s.areas.void_fraction(),
                                  s.areas.outside};

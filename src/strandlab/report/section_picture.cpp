@@ -212,8 +212,10 @@ void draw_colour_bar(Picture& picture, const Layout& l, Colouring colouring, con
   const double middle = (l.top + l.bottom) / 2, top = middle - height / 2, bottom = middle + height / 2;
   const double right = l.bar_left + l.bar_width, thin = std::max(1.0, l.text / 14);
   cairo_set_antialias(picture.get(), CAIRO_ANTIALIAS_NONE);
-  for (double y = top; y < bottom; ++y) {
-    picture.set(colour_of(range.low + (range.high - range.low) * (bottom - y) / height, colouring, range));
+  const int lines = static_cast<int>(std::ceil(height));
+  for (int i = 0; i < lines; ++i) {
+    const double y = top + i, share = 1 - i / height;
+    picture.set(colour_of(range.low + (range.high - range.low) * share, colouring, range));
     picture.rectangle(l.bar_left, y, right, std::min(y + 1, bottom));
   }
   cairo_set_antialias(picture.get(), CAIRO_ANTIALIAS_DEFAULT);
