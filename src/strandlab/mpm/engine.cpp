@@ -600,9 +600,11 @@ struct Engine<Dim>::Impl {
     if (!windows_valid || *std::max_element(drift.begin(), drift.end()) > kMaxDrift) make_windows();
     const Frame<Dim> f = frame();
     scatter(f);
+    apply_tractions(f);
     fold(f);
     update_grid(f);
     unfold(f);
+    book_tractions(f);
     gather(f);
     if (options.filter_interval > 0 && (state.step + 1) % options.filter_interval == 0) filter(f);
     advance(f);
@@ -691,7 +693,7 @@ struct Engine<Dim>::Impl {
     view.slot = table.slots.data();
     view.friction = options.friction;
     view.platen_friction = options.platen_friction;
-    view.traction = has_tractions ? tractions.data() : nullptr;
+    view.traction = nullptr;
     const auto count = static_cast<int>(table.pencils.size());
     const double start = options.profile ? ticks() : 0;
 #pragma omp parallel for schedule(dynamic, 8) num_threads(options.threads) if (options.threads > 1)
@@ -789,6 +791,75 @@ struct Engine<Dim>::Impl {
       const double moved = std::max(std::abs(state.bottom.velocity), std::abs(state.top.velocity)) * f.dt;
       drift[Dim - 1] += moved * f.inverse_cell[Dim - 1] + (before - stretch()) / before;
     }
+  }
+
+  // ------------------------------------------------------------------------------------------------ tractions
+
+  // Grid functions averaged over the face element of a point: as wide as the particle along the face, flat across it.
+  // Then the nodal forces of a traction balance those of an equal stress node by node (divergence theorem), also at
+  // nodes that the body hardly touches.
+  PointStencil<Dim> face_stencil(const BodyData& body, const double* d, const Vec<Dim>& offset,
+                                 const Frame<Dim>& f) const {
+    PointStencil<Dim> s;
+    for (int a = 0; a < Dim; ++a) {
+      double x = d[(C::x + a) * kBlock];
+      for (int b = 0; b < Dim; ++b) x += d[(C::F + a * Dim + b) * kBlock] * offset[b];
+      const double xi = (x - f.origin[a]) * f.inverse_cell[a];
+      s.node[a] = static_cast<int>(std::lround(xi));
+      const double width = (0.5 * body.spacing[a] - std::abs(offset[a])) * std::abs(d[(C::F + a * Dim + a) * kBlock]) *
+                           f.inverse_cell[a];
+      double from_node = xi - s.node[a];
+      if (std::abs(from_node) < 1e-9) from_node = 0;  // a face on a grid line acts on that line alone
+      if (width > 1e-3) {
+        s.axis[a] = gimp(from_node, std::min(width, 0.5));
+      } else {
+        s.axis[a].w = {std::max(-from_node, 0.0), 1 - std::abs(from_node), std::max(from_node, 0.0)};
+      }
+    }
+    return s;
+  }
+
+  template <class Visit>  // visit(record, traction, weight times area at formation)
+  void each_traction(const Frame<Dim>& f, Visit visit) const {
+    if (!has_tractions) return;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const auto& body = bodies[b];
+      for (std::size_t k = 0; k < body.faces.size(); ++k) {
+        const double* t = tractions.data() + (b * kMaxFaces + k) * Dim;
+        if (std::all_of(t, t + Dim, [](double v) { return v == 0; })) continue;
+        const auto& face = body.faces[k];
+        for (std::size_t i = 0; i < face.where.size(); ++i) {
+          Vec<Dim> offset, area;
+          for (int a = 0; a < Dim; ++a) {
+            const std::size_t at = (i / kBlock * Dim + a) * kBlock + i % kBlock;
+            offset[a] = face.offset[at];
+            area[a] = face.area[at];
+          }
+          const double size = area.norm();
+          if (size == 0) continue;  // padding
+          const auto s = face_stencil(body, body.data.data() + face.where[i], offset, f);
+          each_node(windows[b].field, s, [&](std::size_t record, double w) {
+            if (w > 0) visit(record * kRecord, t, w * size);
+          });
+        }
+      }
+    }
+  }
+
+  void apply_tractions(const Frame<Dim>& f) {
+    each_traction(f, [&](std::size_t node, const double* t, double area) {
+      for (int a = 0; a < Dim; ++a) nodes[node + 1 + Dim + a] += t[a] * area;
+    });
+  }
+
+  // Their work on the mean velocity of the step.
+  void book_tractions(const Frame<Dim>& f) {
+    each_traction(f, [&](std::size_t node, const double* t, double area) {
+      if (!(nodes[node + 7] > 0)) return;
+      for (int a = 0; a < Dim; ++a) {
+        state.energies.external_work += f.dt * t[a] * area * (nodes[node + a] - 0.5 * nodes[node + Dim + a]);
+      }
+    });
   }
 
   // ------------------------------------------------------------------------------------------------ velocity filter

@@ -1,0 +1,133 @@
+// Axial waves in an elastic bar at small amplitude. With a Poisson ratio of zero the bar is one-dimensional in a
+// section as well: wave speed c = sqrt(E/rho), first mode between fixed or free ends of period 2 L/c.
+#include <gtest/gtest.h>
+
+#include "verification/mpm/single_block.hpp"
+
+namespace strandlab::mpm {
+namespace {
+
+constexpr double kLength = 40;    // mm
+constexpr double kStrain = 1e-5;  // amplitude
+enum class Ends { kRoller, kFree };
+
+double wave_speed(const wood::StrandMaterial& m) {
+  return std::sqrt(m.stiffness(0, 0) / m.density);
+}
+
+// `cells` along the bar and 2 through it, two particles per cell and axis, ends on grid lines.
+struct Bar {
+  std::vector<Body<2>> bodies;
+  Grid<2> grid;
+  Bar(int cells, const std::array<Side, 2>& sides) {
+    const double h = kLength / cells;
+    bodies.push_back(block<2>(isotropic(10000, 0, 500), {2 * cells, 4}, {h / 2, h / 2}, {0, 0}));
+    grid.cell = {h, h};
+    grid.origin = {0, 0};
+    grid.lo = {0, 0};
+    grid.hi = {kLength, 2 * h};
+    grid.sides[0] = sides;
+  }
+};
+
+double shape(Ends ends, double x) {
+  return ends == Ends::kRoller ? std::sin(M_PI * x / kLength) : std::cos(M_PI * x / kLength);
+}
+
+struct Vibration {
+  double period_error = 0;  // relative
+  double energy_drift = 0;  // of the total: its mean over the last period against that over the first
+};
+
+// Ten periods of the first mode, started with a velocity at rest. The period comes from the zero crossings of the
+// velocity's projection on the mode.
+Vibration vibrate(int cells, Ends ends) {
+  const Side side = ends == Ends::kRoller ? Side::kRoller : Side::kFree;
+  Bar bar(cells, {side, side});
+  auto& body = bar.bodies[0];
+  const double c = wave_speed(body.material);
+  const auto start = body.x;
+  for (std::size_t p = 0; p < body.x.size(); ++p) body.v[p][0] = kStrain * c * shape(ends, body.x[p][0]);
+  Engine<2> engine(bar.bodies, bar.grid, {});
+  const double exact = 2 * kLength / c;
+  const auto total = [&] {
+    const Energies e = engine.energies();
+    return e.kinetic + e.elastic;
+  };
+  const auto amplitude = [&] {
+    engine.write(bar.bodies);
+    double sum = 0;
+    for (std::size_t p = 0; p < start.size(); ++p) sum += body.v[p][0] * shape(ends, start[p][0]);
+    return sum;
+  };
+  Vibration result;
+  std::vector<double> crossings;  // downwards: one per period
+  // Velocities are half a step behind positions, so that the sum of the energies swings by half a step's phase twice
+  // per period; its mean over a period does not.
+  std::vector<double> sum, samples;
+  double before = amplitude();
+  while (crossings.size() < 11) {
+    engine.step();
+    const double now = amplitude(), t = engine.state().time_s, dt = engine.state().time_step_s;
+    if (before > 0 && now <= 0) {
+      crossings.push_back(t - dt * now / (now - before));
+      sum.push_back(0);
+      samples.push_back(0);
+    }
+    before = now;
+    if (sum.empty()) continue;
+    sum.back() += total();
+    ++samples.back();
+  }
+  result.energy_drift = (sum[9] / samples[9]) / (sum[0] / samples[0]) - 1;
+  result.period_error = (crossings.back() - crossings.front()) / 10 / exact - 1;
+  return result;
+}
+
+void expect_second_order(Ends ends, const char* name) {
+  std::vector<Vibration> runs;
+  for (int cells : {10, 20, 40, 80}) {
+    runs.push_back(vibrate(cells, ends));
+    std::printf("bar, %s ends, %2d cells: period error %+.3e, energy drift %+.2e\n", name, cells,
+                runs.back().period_error, runs.back().energy_drift);
+  }
+  const double order = std::log2(std::abs(runs[0].period_error / runs[3].period_error)) / 3;
+  std::printf("bar, %s ends: order %.2f\n", name, order);
+  EXPECT_GE(order, 1.8);
+  EXPECT_LT(std::abs(runs[2].period_error), 1e-3);
+  EXPECT_LT(std::abs(runs[2].energy_drift), 0.01);
+  EXPECT_LT(std::abs(runs[3].energy_drift), 0.01);
+}
+
+TEST(Bar, PeriodBetweenRollers) {
+  expect_second_order(Ends::kRoller, "roller");
+}
+TEST(Bar, PeriodBetweenFreeEnds) {
+  expect_second_order(Ends::kFree, "free");
+}
+
+// A bar that flies into a wall (the roller) sends a front to its free end, which it reaches at L/c: behind the front
+// the bar is at rest, and the free end flies back as fast as it came. A grid spreads the front into the integral of an
+// Airy function, which has risen to 1/3 where the sharp front would be; the free end then moves at -1/3 of its speed.
+TEST(Bar, WaveTransit) {
+  constexpr int kCells = 100;
+  Bar bar(kCells, {Side::kRoller, Side::kFree});
+  auto& body = bar.bodies[0];
+  const double c = wave_speed(body.material), speed = kStrain * c;
+  for (auto& v : body.v) v[0] = -speed;
+  Engine<2> engine(bar.bodies, bar.grid, {});
+  const std::size_t end = 2 * kCells - 1;
+  double before = -speed, arrival = 0;
+  while (arrival == 0 && engine.state().time_s < 2 * kLength / c) {
+    engine.step();
+    engine.write(bar.bodies);
+    const double now = body.v[end][0], dt = engine.state().time_step_s;
+    if (now >= -speed / 3) arrival = engine.state().time_s - dt * (now + speed / 3) / (now - before);
+    before = now;
+  }
+  std::printf("bar: wave arrives at %.5f of L/c\n", arrival * c / kLength);
+  EXPECT_NEAR(arrival * c / kLength, 1, 0.01);
+}
+
+}  // namespace
+}  // namespace strandlab::mpm
