@@ -15,5 +15,6 @@ void add_test(CLI::App& app);
 void add_run(CLI::App& app);
 void add_theory(CLI::App& app);
 void add_bondline(CLI::App& app);
+void add_bench(CLI::App& app);
 
 }  // namespace strandlab::app

@@ -47,7 +47,7 @@ void Console::warn(const std::string& line) {
   if (log_) log_->warn(line);
 }
 
-void Console::error(const std::string& line) {
+void Console::log_error(const std::string& line) {
   clear_progress();
   if (log_) log_->error(line);
 }

@@ -24,7 +24,7 @@ class Console {
 
   void say(const std::string& line);
   void warn(const std::string& line);
-  void error(const std::string& line);  // to the log only: main() tells the user
+  void log_error(const std::string& line);  // main() tells the user
   // On a terminal one line that is written over; else, and in the log, a plain line every ten seconds.
   void progress(const std::string& line);
 

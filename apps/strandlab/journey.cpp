@@ -4,6 +4,7 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <exception>
 #include <fstream>
 #include <sstream>
 #include <thread>
@@ -34,19 +35,6 @@ nlohmann::json machine() {
           {"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)}};
 }
 
-// Memory (bytes) of this machine.
-double machine_memory() {
-  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
-}
-
-void refuse_too_large(const io::Estimate& e, const std::string& file) {
-  if (e.memory_bytes < machine_memory()) return;
-  throw InputError(
-      fmt::format("{}: the case has {} particles and needs about {:.0f} MB of memory, this machine has {:.0f} MB; "
-                  "shorten mat.length_mm or lower grid.cells_through_strand",
-                  file, e.particles, e.memory_bytes / 1e6, machine_memory() / 1e6));
-}
-
 std::string read_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
@@ -54,20 +42,30 @@ std::string read_text(const std::filesystem::path& file) {
   return text.str();
 }
 
-}  // namespace
-
 Journey start(const CaseArguments& arguments, io::Step first) {
   auto c = arguments.read();
   auto mat = io::make_mat(c);
   auto panel = io::make_panel(c, mat);
-  const auto e = io::estimate(c, panel);
-  refuse_too_large(e, arguments.file);
-  io::RunFolder folder(arguments.run_folder(c), c, first, arguments.force, e.disk_bytes);
+  const double disk_bytes = io::estimate(c, panel).disk_bytes;
+  io::RunFolder folder(arguments.run_folder(c), c, first, arguments.force, disk_bytes);
   folder.record()["strandlab"] = version();
   folder.record()["git"] = kGitHash;
   folder.record()["seed"] = c.seed;
   folder.record()["machine"] = machine();
   return {std::move(c), std::move(mat), std::move(panel), std::move(folder)};
+}
+
+}  // namespace
+
+void travel(const CaseArguments& arguments, io::Step first, const std::function<void(Journey&, Console&)>& steps) {
+  auto journey = start(arguments, first);
+  Console console;
+  try {
+    steps(journey, console);
+  } catch (const std::exception& e) {
+    console.log_error(e.what());
+    throw;
+  }
 }
 
 void do_mat(Journey& journey, Console& console) {

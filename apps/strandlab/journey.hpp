@@ -1,6 +1,8 @@
 // The journey of a panel through a run folder, mat -> press -> test; each step goes on from what the folder holds.
 #pragma once
 
+#include <functional>
+
 #include "case_arguments.hpp"
 #include "console.hpp"
 #include "strandlab/io/run_folder.hpp"
@@ -14,9 +16,9 @@ struct Journey {
   io::RunFolder folder;
 };
 
-// Reads and checks everything, then opens the run folder; with --force the steps from `first` on start again. Throws
-// InputError with nothing written.
-Journey start(const CaseArguments& arguments, io::Step first);
+// Reads and checks the case, opens its run folder (with --force the steps from `first` on start again) and takes the
+// steps; an exception that ends them is logged. Throws InputError with nothing written for bad input.
+void travel(const CaseArguments& arguments, io::Step first, const std::function<void(Journey&, Console&)>& steps);
 
 // Each does its step unless the folder has it already, and says so. Throws InputError where a file of the folder cannot
 // be used, RunError for a failed simulation.

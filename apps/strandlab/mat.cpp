@@ -9,11 +9,11 @@ namespace strandlab::app {
 namespace {
 
 void make(const CaseArguments& arguments) {
-  auto journey = start(arguments, io::Step::kMat);
-  Console console;
-  const bool done = journey.folder.finished(io::Step::kMat);
-  do_mat(journey, console);
-  if (done) console.say("mat: already in " + journey.folder.path().string());
+  travel(arguments, io::Step::kMat, [](Journey& journey, Console& console) {
+    const bool done = journey.folder.finished(io::Step::kMat);
+    do_mat(journey, console);
+    if (done) console.say("mat: already in " + journey.folder.path().string());
+  });
 }
 
 }  // namespace

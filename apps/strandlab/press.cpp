@@ -127,10 +127,10 @@ mpm::Options engine_options(const io::Case& c) {
 }
 
 void press_alone(const CaseArguments& arguments) {
-  auto journey = start(arguments, io::Step::kPress);
-  Console console;
-  do_mat(journey, console);
-  do_press(journey, console);
+  travel(arguments, io::Step::kPress, [](Journey& journey, Console& console) {
+    do_mat(journey, console);
+    do_press(journey, console);
+  });
 }
 
 }  // namespace

@@ -5,23 +5,21 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "duration.hpp"
 #include "journey.hpp"
 
 namespace strandlab::app {
 namespace {
 
 void run(const CaseArguments& arguments) {
-  auto journey = start(arguments, io::Step::kMat);
-  Console console;
-  const auto& folder = journey.folder;
-  if (folder.finished(io::Step::kTest)) {
-    console.say(fmt::format("{}: this run is finished; --force runs it again", folder.path().string()));
-    return;
-  }
-  do_mat(journey, console);
-  do_press(journey, console);
-  do_test(journey, console);
+  travel(arguments, io::Step::kMat, [](Journey& journey, Console& console) {
+    if (journey.folder.finished(io::Step::kTest)) {
+      console.say(fmt::format("{}: this run is finished; --force runs it again", journey.folder.path().string()));
+      return;
+    }
+    do_mat(journey, console);
+    do_press(journey, console);
+    do_test(journey, console);
+  });
 }
 
 }  // namespace

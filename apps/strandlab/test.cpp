@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "duration.hpp"
 #include "journey.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/io/checkpoint.hpp"
@@ -87,9 +86,7 @@ void test_state(Journey& journey, const Panel<2>& panel, double compaction, Cons
 }
 
 void test_alone(const CaseArguments& arguments) {
-  auto journey = start(arguments, io::Step::kTest);
-  Console console;
-  do_test(journey, console);
+  travel(arguments, io::Step::kTest, do_test);
 }
 
 }  // namespace
@@ -118,6 +115,9 @@ void do_test(Journey& journey, Console& console) {
                                  100.0 * static_cast<double>(i) / static_cast<double>(panels.size()), compaction));
     test_state(journey, panels[i], compaction, console);
   }
+  double wall_s = 0;
+  for (const auto& state : states) wall_s += state.at("wall_s").get<double>();
+  folder.record(io::Step::kTest)["wall_s"] = wall_s;
   write_plots(journey, moduli_of(states), console);
   folder.set_finished(io::Step::kTest);
   console.say(fmt::format("test: {} moduli -> {}", moduli_of(states).size(), folder.file("moduli.csv").string()));
