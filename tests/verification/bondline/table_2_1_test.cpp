@@ -1,4 +1,5 @@
 // Specimens made with the means and scatter of Le (2010) Table 2.1 give that table back.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/bondline/example.hpp"
+#include "support/report.hpp"
 
 namespace strandlab::bondline {
 namespace {
@@ -32,6 +34,8 @@ TEST(Table21, MeansAndIntervals) {
     SCOPED_TRACE(published.name);
     EXPECT_EQ(found.compliance_t.n, published.n);
     EXPECT_EQ(found.excluded, 0);
+    report(std::string(published.name) + ": mean 1/D_t from an example table", found.compliance_t.mean,
+           fmt::format("{} +- {:.2g}", published.mean, published.half_interval / 2.1), "mm/MPa");
     // Sampling error of the mean: the published half interval is 2.1 of its standard errors.
     EXPECT_NEAR(found.compliance_t.mean, published.mean, published.half_interval / 2.1);
     const double half = (found.compliance_t.high - found.compliance_t.low) / 2;

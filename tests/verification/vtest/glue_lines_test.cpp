@@ -1,6 +1,11 @@
 // Properties of the moduli that do not need a reference: symmetry, continuity, penalty, undulated glue lines.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "support/report.hpp"
 #include "verification/vtest/reference_panels.hpp"
 
 namespace strandlab::vtest {
@@ -14,12 +19,15 @@ Options options_with(std::vector<double> compliances,
   return options;
 }
 
-void expect_same(const Result& a, const Result& b, double tolerance) {
+void expect_same(const std::string& what, const Result& a, const Result& b, double tolerance) {
   ASSERT_EQ(a.moduli.size(), b.moduli.size());
+  double worst = 0;
   for (std::size_t i = 0; i < a.moduli.size(); ++i) {
-    EXPECT_NEAR(a.moduli[i].modulus_MPa / b.moduli[i].modulus_MPa, 1, tolerance)
-        << name(a.moduli[i].kind) << " at 1/D_t = " << a.moduli[i].compliance_t_mm_per_MPa;
+    const double ratio = a.moduli[i].modulus_MPa / b.moduli[i].modulus_MPa;
+    EXPECT_NEAR(ratio, 1, tolerance) << name(a.moduli[i].kind) << " at 1/D_t = " << a.moduli[i].compliance_t_mm_per_MPa;
+    worst = std::max(worst, std::abs(ratio - 1));
   }
+  report(what + ": largest change of a modulus", worst, fmt::format("{}", tolerance));
 }
 
 // Undulated laminate of four rows, A sin(2 pi x/w), 25 mm long: tension moduli of an independent finite-element
@@ -40,6 +48,9 @@ TEST_P(UndulatedLaminate, FollowsTheReference) {
     const auto result = measure(panel, options);
     EXPECT_NEAR(result.glued_fraction, 1, 1e-6);
     for (std::size_t i = 0; i < u.moduli.size(); ++i) {
+      report(fmt::format("undulated laminate, A = {}, w = {} mm, 1/D_t = {}, {} elements: tension modulus",
+                         u.amplitude_mm, u.wave_mm, u.compliances[i], elements),
+             result.moduli[i].modulus_MPa, fmt::format("{} within {:g} %", u.moduli[i], 100 * tolerance), "MPa");
       EXPECT_NEAR(result.moduli[i].modulus_MPa / u.moduli[i], 1, tolerance)
           << elements << " elements, 1/D_t = " << u.compliances[i];
       EXPECT_NEAR(result.moduli[i].modulus_MPa / result.moduli[i].reaction_modulus_MPa, 1, 1e-6);
@@ -62,15 +73,20 @@ TEST(StrandEnds, MoveModuliContinuously) {
     mat.layers[1].strands[0].x1_mm = 22.4 + step * tenth;
     results.push_back(measure(panel_of(mat), options_with({0, 0.0021})));
   }
+  double step = 0, kink = 0;
   for (std::size_t i = 0; i < results[0].moduli.size(); ++i) {
     for (std::size_t k = 2; k < results.size(); ++k) {
       const double before = results[k - 2].moduli[i].modulus_MPa, middle = results[k - 1].moduli[i].modulus_MPa;
       const double now = results[k].moduli[i].modulus_MPa;
+      step = std::max(step, (now - middle) / now);
+      kink = std::max(kink, std::abs(now - 2 * middle + before) / now);
       EXPECT_GT(now, middle);
       EXPECT_LT((now - middle) / now, 1e-4);
       EXPECT_LT(std::abs(now - 2 * middle + before) / now, 6e-5);
     }
   }
+  report("strand end moved by tenths of an element: largest relative step of a modulus", step, "1e-4");
+  report("strand end moved by tenths of an element: largest second difference", kink, "6e-5");
 }
 
 mat::Mat mirrored_along(mat::Mat mat) {
@@ -92,18 +108,20 @@ TEST(Mirroring, ChangesNoModulus) {
     std::reverse(upside_down.layers.begin(), upside_down.layers.end());
     const auto options = options_with({0, 0.0163});
     const auto original = measure(panel_of(mat), options);
-    expect_same(measure(panel_of(mirrored_along(mat)), options), original, 1e-3);
-    expect_same(measure(panel_of(upside_down), options), original, 1e-3);
+    expect_same(std::string(name) + " mirrored along x", measure(panel_of(mirrored_along(mat)), options), original,
+                1e-3);
+    expect_same(std::string(name) + " upside down", measure(panel_of(upside_down), options), original, 1e-3);
   }
 }
 
 // Perfect bonds are springs: ten times stiffer ones change nothing that matters, in flat mats and on undulated lines.
 TEST(PerfectBond, DoesNotDependOnItsPenalty) {
-  for (const auto& panel : {panel_of(reference_mat("osl_s1")), undulated_laminate(4, 25, 0.25, 5)}) {
+  for (const auto& [what, panel] : {std::pair{"osl_s1", panel_of(reference_mat("osl_s1"))},
+                                    std::pair{"undulated laminate", undulated_laminate(4, 25, 0.25, 5)}}) {
     auto options = options_with({0, 0.0105}, all_kinds());
     const auto usual = measure(panel, options);
     options.perfect_bond *= 10;
-    expect_same(measure(panel, options), usual, 1e-4);
+    expect_same(fmt::format("{}, penalty of a perfect bond times ten", what), measure(panel, options), usual, 1e-4);
   }
 }
 
@@ -129,8 +147,8 @@ TEST(Refinement, SettlesTheModuliOfAnUndulatedLaminate) {
     options.elements_through_strand = elements;
     results.push_back(measure(panel, options));
   }
-  expect_same(results[0], results[1], 0.03);
-  expect_same(results[1], results[2], 0.01);
+  expect_same("undulated laminate, 3 against 6 elements", results[0], results[1], 0.03);
+  expect_same("undulated laminate, 6 against 12 elements", results[1], results[2], 0.01);
 }
 
 }  // namespace
