@@ -189,7 +189,7 @@ Histogram grain_angle_histogram(const Panel<2>& panel) {
     for (const auto& F : strand.F) angles.push_back(grain_angle_deg<2>(F));
     append(weights, volumes(strand, strand.size()));
   }
-  return histogram("grain_angle_deg", angles, weights, -30.5, 30.5, 61);
+  return histogram("grain_angle_deg", angles, weights, -90.5, 90.5, 181);
 }
 
 Histogram thickness_strain_histogram(const Panel<2>& panel) {
@@ -201,7 +201,7 @@ Histogram thickness_strain_histogram(const Panel<2>& panel) {
     for (const double s : sum) strains.push_back(s / strand.points[1]);
     append(weights, volumes(strand, along));
   }
-  return histogram("strand_thickness_strain", strains, weights, -0.81, 0.41, 61);
+  return histogram("strand_thickness_strain", strains, weights, -0.91, 1.01, 96);
 }
 
 Areas areas(const Panel<2>& panel) {

@@ -22,10 +22,10 @@ Histogram histogram(std::string quantity, const std::vector<double>& values, con
                     double low, double high, int bins);
 
 // Angle of the strands' long axis against the panel's plane, at each material point: bins of 1 degree around 0, to
-// +-30.5.
+// +-90.5.
 Histogram grain_angle_histogram(const Panel<2>& panel);
 // Strain of the strands' thickness, t/t0 - 1 with t perpendicular to the strand, mean over the points through the
-// thickness at each place along it: bins of 0.02 around 0, -0.81..0.41.
+// thickness at each place along it: bins of 0.02 around 0, -0.91..1.01.
 Histogram thickness_strain_histogram(const Panel<2>& panel);
 
 // Areas over the area between the platens in the window 0..length. Strands are the polygons of their corner lattices;

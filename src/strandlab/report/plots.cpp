@@ -52,9 +52,9 @@ void fit_axis(Plot& plot, std::optional<double> start) {
   plot.x_high = high + margin;
 }
 
-// Outline of a histogram from its first to its last bin that holds anything. gnuplot's fsteps go up, then right.
+// Outline of a histogram from its first to its last bin that can be seen. gnuplot's fsteps go up, then right.
 Curve outline(const Histogram& h, const std::string& name) {
-  const auto holds = [](double fraction) { return fraction > 0; };
+  const auto holds = [](double fraction) { return fraction > 1e-3; };
   const auto first = std::find_if(h.fraction.begin(), h.fraction.end(), holds) - h.fraction.begin();
   const auto past = h.fraction.rend() - std::find_if(h.fraction.rbegin(), h.fraction.rend(), holds);
   if (past == 0) return {name, {}, {}};

@@ -16,7 +16,7 @@
 namespace strandlab::report {
 namespace {
 
-constexpr double kTrimmed = 0.005;  // share of the wood at each end that the colour range may leave out
+constexpr double kTrimmed = 0.02;  // share of the wood at each end that the colour range may leave out
 
 double shown_value(const Strand<2>& strand, std::size_t point, Colouring colouring) {
   return colouring == Colouring::kGrainAngle ? grain_angle_deg<2>(strand.F[point]) : density_kg_m3(strand, point);
@@ -257,7 +257,8 @@ ColourRange common_range(const std::vector<const Panel<2>*>& panels, Colouring c
   };
   const double low = at(kTrimmed), high = at(1 - kTrimmed);
   if (colouring == Colouring::kGrainAngle) {
-    const double limit = std::ceil(std::max({-low, high, 1.0}) - 1e-9);
+    constexpr double kSteepest = 30;  // degrees; folds at strand ends would wash out the rest
+    const double limit = std::min(kSteepest, std::ceil(std::max({-low, high, 1.0}) - 1e-9));
     return {-limit, limit};
   }
   constexpr double kStep = 50;  // kg/m^3

@@ -16,8 +16,8 @@ struct ColourRange {
   double low = 0, high = 1;  // degrees or kg/m^3; values outside take the end colours
 };
 
-// A range that suits all these panels, with round ends: symmetric about 0 for angles (diverging map), from the lightest
-// to the densest wood for densities; the extreme 0.5 % of the wood may fall outside.
+// A range that suits all these panels, with round ends: symmetric about 0 and 30 degrees at most for angles (diverging
+// map), from the lightest to the densest wood for densities; the extreme 2 % of the wood may fall outside.
 ColourRange common_range(const std::vector<const Panel<2>*>& panels, Colouring colouring);
 
 struct PictureOptions {
