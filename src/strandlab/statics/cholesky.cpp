@@ -3,9 +3,6 @@
 #include <cholmod.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "strandlab/core/error.hpp"
 
 extern "C" void openblas_set_num_threads(int);
@@ -28,18 +25,6 @@ cholmod_sparse view(const LowerMatrix& matrix) {
   a.sorted = 1;
   a.packed = 1;
   return a;
-}
-
-double largest(const std::vector<double>& v) {
-  double m = 0;
-  for (const double x : v) m = std::max(m, std::abs(x));
-  return m;
-}
-
-std::vector<double> residual(const LowerMatrix& a, const std::vector<double>& x, const std::vector<double>& b) {
-  auto r = multiply(a, x);
-  for (std::size_t i = 0; i < r.size(); ++i) r[i] = b[i] - r[i];
-  return r;
 }
 
 }  // namespace
@@ -79,19 +64,6 @@ struct Cholesky::Impl {
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
-
-  void solve_once(const std::vector<double>& rhs, std::vector<double>& x) {
-    cholmod_dense b{};
-    b.nrow = b.nzmax = b.d = rhs.size();
-    b.ncol = 1;
-    b.x = const_cast<double*>(rhs.data());
-    b.xtype = CHOLMOD_REAL;
-    b.dtype = CHOLMOD_DOUBLE;
-    cholmod_solve2(CHOLMOD_A, factor, &b, nullptr, &solution, nullptr, &work_y, &work_e, &common);
-    if (common.status < CHOLMOD_OK) throw RunError("the linear solver ran out of memory");
-    const auto* values = static_cast<const double*>(solution->x);
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += values[i];
-  }
 };
 
 Cholesky::Cholesky(const LowerMatrix& matrix) : impl_(std::make_unique<Impl>()) {
@@ -118,28 +90,18 @@ void Cholesky::factorise(const LowerMatrix& matrix) {
   }
 }
 
-std::vector<std::vector<double>> Cholesky::solve(const LowerMatrix& matrix,
-                                                 const std::vector<std::vector<double>>& rhs) {
-  std::vector<std::vector<double>> solutions;
-  for (const auto& b : rhs) {
-    std::vector<double> x(b.size(), 0.0);
-    impl_->solve_once(b, x);
-    auto r = residual(matrix, x, b);
-    for (int step = 0; step < 4; ++step) {
-      auto refined = x;
-      impl_->solve_once(r, refined);
-      auto next = residual(matrix, refined, b);
-      if (!(largest(next) < 0.5 * largest(r))) break;
-      x = std::move(refined);
-      r = std::move(next);
-    }
-    solutions.push_back(std::move(x));
-  }
-  return solutions;
-}
-
-double Cholesky::factor_entries() const {
-  return impl_->common.lnz;
+std::vector<double> Cholesky::solve(const std::vector<double>& rhs) {
+  cholmod_dense b{};
+  b.nrow = b.nzmax = b.d = rhs.size();
+  b.ncol = 1;
+  b.x = const_cast<double*>(rhs.data());
+  b.xtype = CHOLMOD_REAL;
+  b.dtype = CHOLMOD_DOUBLE;
+  auto& i = *impl_;
+  cholmod_solve2(CHOLMOD_A, i.factor, &b, nullptr, &i.solution, nullptr, &i.work_y, &i.work_e, &i.common);
+  if (i.common.status < CHOLMOD_OK) throw RunError("the linear solver ran out of memory");
+  const auto* values = static_cast<const double*>(i.solution->x);
+  return {values, values + rhs.size()};
 }
 
 }  // namespace strandlab::statics

@@ -29,10 +29,8 @@ class Cholesky {
   // runs out.
   void factorise(const LowerMatrix& matrix);
 
-  // Solves for one or more right-hand sides with the last factor, refined until the residual stops falling.
-  std::vector<std::vector<double>> solve(const LowerMatrix& matrix, const std::vector<std::vector<double>>& rhs);
-
-  double factor_entries() const;  // stored numbers of the factor
+  // Solution for one right-hand side with the last factor; errors are those of the factor, so refine where it matters.
+  std::vector<double> solve(const std::vector<double>& rhs);
 
  private:
   struct Impl;

@@ -1,7 +1,12 @@
 #include "strandlab/statics/mesh.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "strandlab/core/error.hpp"
 
 namespace strandlab::statics {
 namespace {
@@ -57,6 +62,83 @@ class Lattice {
   std::vector<Vec<2>> corners_;
 };
 
+// Moves the nodes of folded elements of one strand, and of a growing neighbourhood, to the mean of their neighbours.
+class Straightener {
+ public:
+  Straightener(const StrandMesh& part, double formed_area, std::vector<Vec<2>>& nodes)
+      : part_(part), smallest_(0.1 * formed_area), nodes_(nodes), moves_(nodes.size() - part.first_node) {}
+
+  // Number of elements that were folded. Throws RunError when some still are.
+  int run() {
+    constexpr int kSweeps = 400, kSweepsPerRing = 20;
+    const int found = mark_folded(0);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      if (mark_folded(1 + sweep / kSweepsPerRing) == 0) return found;
+      for (int j = 0; j <= part_.through; ++j) {
+        for (int i = 0; i <= part_.along; ++i) {
+          if (moves_[part_.node(i, j) - part_.first_node]) at(i, j) += 0.5 * (smooth(i, j) - at(i, j));
+        }
+      }
+    }
+    if (mark_folded(0) == 0) return found;
+    throw RunError(
+        fmt::format("strand {} is too distorted for a virtual test: folded elements near x = {:.3f} mm, y = {:.3f} mm",
+                    part_.strand + 1, folded_[0], folded_[1]));
+  }
+
+ private:
+  Vec<2>& at(int i, int j) { return nodes_[part_.node(i, j)]; }
+
+  // Twice the area of the smallest of the four corner triangles.
+  double smallest_corner(int i, int j) {
+    const std::array<Vec<2>, 4> c{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+    double smallest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 4; ++k) {
+      const Vec<2> next = c[(k + 1) % 4] - c[k], previous = c[(k + 3) % 4] - c[k];
+      smallest = std::min(smallest, next[0] * previous[1] - next[1] * previous[0]);
+    }
+    return smallest;
+  }
+
+  // Marks the nodes within `rings` of folded elements as movable; returns the number of such elements.
+  int mark_folded(int rings) {
+    std::fill(moves_.begin(), moves_.end(), 0);
+    int count = 0;
+    for (int j = 0; j < part_.through; ++j) {
+      for (int i = 0; i < part_.along; ++i) {
+        if (smallest_corner(i, j) >= smallest_) continue;
+        ++count;
+        folded_ = at(i, j);
+        for (int b = std::max(0, j - rings); b <= std::min(part_.through, j + 1 + rings); ++b) {
+          for (int a = std::max(0, i - rings); a <= std::min(part_.along, i + 1 + rings); ++a) {
+            moves_[part_.node(a, b) - part_.first_node] = 1;
+          }
+        }
+      }
+    }
+    return count;
+  }
+
+  // Inside: the mean of four neighbours; on a face or an end: of the two along it; at a corner: completes the
+  // parallelogram.
+  Vec<2> smooth(int i, int j) {
+    const bool end = i == 0 || i == part_.along, face = j == 0 || j == part_.through;
+    if (end && face) {
+      const int a = i == 0 ? 1 : i - 1, b = j == 0 ? 1 : j - 1;
+      return at(a, j) + at(i, b) - at(a, b);
+    }
+    if (end) return 0.5 * (at(i, j - 1) + at(i, j + 1));
+    if (face) return 0.5 * (at(i - 1, j) + at(i + 1, j));
+    return 0.25 * (at(i - 1, j) + at(i + 1, j) + at(i, j - 1) + at(i, j + 1));
+  }
+
+  StrandMesh part_;
+  double smallest_;  // mm^2
+  std::vector<Vec<2>>& nodes_;
+  std::vector<char> moves_;  // by node of the strand
+  Vec<2> folded_ = Vec<2>::Zero();
+};
+
 void append_strand(const Strand<2>& strand, StrandMesh part, Mesh& mesh) {
   const Lattice lattice(strand);
   const double along = part.points_per_element, through = static_cast<double>(strand.points[1]) / part.through;
@@ -64,6 +146,7 @@ void append_strand(const Strand<2>& strand, StrandMesh part, Mesh& mesh) {
     for (int i = 0; i <= part.along; ++i) mesh.nodes.push_back(lattice.position(i * along, j * through));
   }
   const double formed = along * through * strand.point_volume();  // V0 of an element
+  mesh.straightened += Straightener(part, formed, mesh.nodes).run();
   for (int j = 0; j < part.through; ++j) {
     for (int i = 0; i < part.along; ++i) {
       const std::array<int, 4> e{part.node(i, j), part.node(i + 1, j), part.node(i + 1, j + 1), part.node(i, j + 1)};
@@ -108,7 +191,8 @@ FaceNodes locate(const Mesh& mesh, const glue::FacePoint<2>& point) {
   const double s = (point.segment + point.xi) / part.points_per_element;
   const int i = std::clamp(static_cast<int>(s), 0, part.along - 1);
   const int j = point.side == glue::Side::kTop ? part.through : 0;
-  return {part.node(i, j), part.node(i + 1, j), s - i};
+  const int inward = point.side == glue::Side::kTop ? -(part.along + 1) : part.along + 1;
+  return {part.node(i, j), part.node(i + 1, j), s - i, inward};
 }
 
 }  // namespace strandlab::statics

@@ -26,7 +26,8 @@ struct Mesh {
   std::vector<Vec<2>> nodes;                 // mm
   std::vector<std::array<int, 4>> elements;  // nodes, counter-clockwise
   std::vector<PlaneStiffness>
-      stiffness;  // MPa, by element, panel axes: C0 V0/V_e with the grain of the element's points
+      stiffness;         // MPa, by element, panel axes: C0 V0/V_e with the grain of the element's points
+  int straightened = 0;  // elements that were folded, as dragged strand corners are
   int dofs() const { return 2 * static_cast<int>(nodes.size()); }
 };
 
@@ -42,6 +43,7 @@ Mesh make_mesh(const Panel<2>& panel, const std::vector<bool>& keep, int element
 struct FaceNodes {
   int first = 0, second = 0;  // nodes
   double xi = 0;
+  int inward = 0;  // from a node of the face to the one below it in the strand
 };
 FaceNodes locate(const Mesh& mesh, const glue::FacePoint<2>& point);
 

@@ -109,14 +109,39 @@ double PanelStiffness::wood_energy(const std::vector<double>& displacement) cons
   return energy;
 }
 
-double PanelStiffness::glue_energy(const std::vector<double>& displacement, const GlueStiffness& glue) const {
-  double energy = 0;
+std::vector<Vec<2>> PanelStiffness::jumps(const std::vector<double>& displacement) const {
+  std::vector<Vec<2>> result;
+  result.reserve(springs_.size());
   for (const auto& s : springs_) {
     const Dofs u = gather(s.nodes, displacement);
-    const double jump_t = s.tangent.dot(u), jump_n = s.normal.dot(u);
-    energy += 0.5 * s.area * (glue.tangential * jump_t * jump_t + glue.normal * jump_n * jump_n);
+    result.emplace_back(s.tangent.dot(u), s.normal.dot(u));
   }
-  return energy;
+  return result;
+}
+
+void PanelStiffness::add_traction_forces(const std::vector<Vec<2>>& tractions, std::vector<double>& force) const {
+  for (std::size_t k = 0; k < springs_.size(); ++k) {
+    const auto& s = springs_[k];
+    const Dofs f = s.area * (tractions[k][0] * s.tangent + tractions[k][1] * s.normal);
+    for (int i = 0; i < 4; ++i) {
+      force[2 * s.nodes[i]] += f[2 * i];
+      force[2 * s.nodes[i] + 1] += f[2 * i + 1];
+    }
+  }
+}
+
+double PanelStiffness::glue_energy(const std::vector<double>& displacement, const GlueStiffness& glue) const {
+  auto tractions = jumps(displacement);
+  for (auto& t : tractions) t = Vec<2>(glue.tangential * t[0], glue.normal * t[1]);
+  return 0.5 * traction_work(tractions, displacement);
+}
+
+double PanelStiffness::traction_work(const std::vector<Vec<2>>& tractions,
+                                     const std::vector<double>& displacement) const {
+  const auto jump = jumps(displacement);
+  double work = 0;
+  for (std::size_t k = 0; k < springs_.size(); ++k) work += springs_[k].area * tractions[k].dot(jump[k]);
+  return work;
 }
 
 LowerMatrix constrained(const LowerMatrix& stiffness, const Supports& supports) {

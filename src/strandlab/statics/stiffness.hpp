@@ -17,9 +17,16 @@ class PanelStiffness {
   // Stiffness of wood and glue, no supports. The pattern is the same for every glue.
   LowerMatrix with(const GlueStiffness& glue) const;
 
+  // Jumps (tangential, normal), mm, of every spring.
+  std::vector<Vec<2>> jumps(const std::vector<double>& displacement) const;
+  // Adds the nodal forces (N per mm of depth) that hold the springs at these tractions (MPa, tangential and normal).
+  void add_traction_forces(const std::vector<Vec<2>>& tractions, std::vector<double>& force) const;
+
   // Strain energy (mJ per mm of depth) of the wood, and of the glue lines, for displacements of all dofs (mm).
   double wood_energy(const std::vector<double>& displacement) const;
   double glue_energy(const std::vector<double>& displacement, const GlueStiffness& glue) const;
+  // Work of given tractions on the jumps, mJ per mm of depth.
+  double traction_work(const std::vector<Vec<2>>& tractions, const std::vector<double>& displacement) const;
 
  private:
   void make_pattern(const Mesh& mesh);

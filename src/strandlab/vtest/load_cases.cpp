@@ -36,6 +36,17 @@ EndForce end_force(const statics::Mesh& mesh, const statics::StrandMesh& strand)
   return force;
 }
 
+Resultant resultant(const std::vector<Vec<2>>& positions, const std::vector<int>& nodes, const Vec<2>& about,
+                    const std::vector<double>& forces) {
+  Resultant sum;
+  for (const int n : nodes) {
+    const Vec<2> arm = positions[n] - about;
+    sum.force += forces[2 * n];
+    sum.moment += arm[0] * forces[2 * n + 1] - arm[1] * forces[2 * n];
+  }
+  return sum;
+}
+
 }  // namespace
 
 Section make_section(const Panel<2>& panel, const Connection& connection, const statics::Mesh& mesh) {
@@ -53,7 +64,7 @@ Section make_section(const Panel<2>& panel, const Connection& connection, const 
     if (!group_pinned) section.pins.push_back(strand.node(0, 0));
     group_pinned = 1;
   }
-  for (const auto& node : mesh.nodes) section.height.push_back(node[1]);
+  section.nodes = mesh.nodes;
   return section;
 }
 
@@ -72,18 +83,17 @@ statics::Supports clamped_supports(const Section& section, const statics::LowerM
 }
 
 std::vector<double> end_displacement(const Section& section, double q, double theta) {
-  std::vector<double> displacement(2 * section.height.size(), 0.0);
-  for (const int n : section.right) displacement[2 * n] = q - theta * (section.height[n] - section.middle);
+  std::vector<double> displacement(2 * section.nodes.size(), 0.0);
+  for (const int n : section.right) displacement[2 * n] = q - theta * (section.nodes[n][1] - section.middle);
   return displacement;
 }
 
-Resultant resultant(const Section& section, const std::vector<int>& nodes, const std::vector<double>& forces) {
-  Resultant sum;
-  for (const int n : nodes) {
-    sum.force += forces[2 * n];
-    sum.moment -= forces[2 * n] * (section.height[n] - section.middle);
-  }
-  return sum;
+Resultant left_resultant(const Section& section, const std::vector<double>& forces) {
+  return resultant(section.nodes, section.left, Vec<2>(0, section.middle), forces);
+}
+
+Resultant right_resultant(const Section& section, const std::vector<double>& forces) {
+  return resultant(section.nodes, section.right, Vec<2>(section.length, section.middle), forces);
 }
 
 std::vector<double> couple_forces(const Connection& connection, const statics::Mesh& mesh) {

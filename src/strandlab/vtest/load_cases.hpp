@@ -13,7 +13,7 @@ struct Section {
   double length = 0, thickness = 0, middle = 0;  // mm; middle: height of the mid-plane
   std::vector<int> left, right;                  // nodes
   std::vector<int> pins;                         // one node of each group, held in y where nothing else holds it
-  std::vector<double> height;                    // mm, of every node
+  std::vector<Vec<2>> nodes;                     // mm, positions
   double second_moment() const { return thickness * thickness * thickness / 12; }
 };
 Section make_section(const Panel<2>& panel, const Connection& connection, const statics::Mesh& mesh);
@@ -25,12 +25,13 @@ statics::Supports clamped_supports(const Section& section, const statics::LowerM
 // Displacements given at the end plane x = length by a stretch q and a rotation theta: u_x = q - theta (y - middle).
 std::vector<double> end_displacement(const Section& section, double q, double theta);
 
-// Axial force and moment, about the mid-plane, of nodal forces over a set of nodes.
+// Axial force of nodal forces over a set of nodes of one end plane, and their moment about its middle.
 struct Resultant {
   double force = 0;   // N
   double moment = 0;  // N mm, positive with theta
 };
-Resultant resultant(const Section& section, const std::vector<int>& nodes, const std::vector<double>& forces);
+Resultant left_resultant(const Section& section, const std::vector<double>& forces);
+Resultant right_resultant(const Section& section, const std::vector<double>& forces);
 
 // Nodal forces of a couple of moment 1 N mm: an even axial traction over the end face of the outermost strand on either
 // side that reaches x = length, pulling below and pushing above. Throws InputError if that is one and the same strand.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "strandlab/core/error.hpp"
@@ -100,8 +101,16 @@ Model make_model(const Panel<2>& panel, const Options& options, Result& result) 
   std::transform(group.begin(), group.end(), keep.begin(), [](int g) { return g >= 0; });
   model.mesh = statics::make_mesh(panel, keep, options.elements_through_strand);
   model.section = make_section(panel, model.connection, model.mesh);
-  model.stiffness.emplace(model.mesh, statics::make_springs(model.mesh, points));
+  std::vector<bool> at_end(model.mesh.nodes.size());
+  for (const int n : model.section.left) at_end[n] = true;
+  for (const int n : model.section.right) at_end[n] = true;
+  model.stiffness.emplace(model.mesh, statics::make_springs(model.mesh, points, at_end));
   result.unknowns = model.mesh.dofs();
+  if (model.mesh.straightened > 0) {
+    result.warnings.push_back(
+        fmt::format("{} of {} elements were folded over, as dragged strand corners are, and were straightened.",
+                    model.mesh.straightened, model.mesh.elements.size()));
+  }
   double stiffest = 0;
   for (const auto& c : model.mesh.stiffness) stiffest = std::max(stiffest, c.diagonal().maxCoeff());
   model.perfect = options.perfect_bond * stiffest / spacing;
@@ -111,19 +120,80 @@ Model make_model(const Panel<2>& panel, const Options& options, Result& result) 
 // One glue stiffness being tested.
 struct Trial {
   const Model& model;
-  statics::GlueStiffness glue;
-  statics::LowerMatrix stiffness;
+  statics::GlueStiffness glue;     // MPa/mm, that of a penalty where the bond is perfect
+  bool perfect_t, perfect_n;       // such bonds open by nothing: their tractions are found besides the penalty
+  statics::LowerMatrix stiffness;  // of wood and glue
+};
 
-  double energy(const std::vector<double>& u) const {
-    return model.stiffness->wood_energy(u) + model.stiffness->glue_energy(u, glue);
+// Displacements, and the tractions that perfect bonds carry in excess of their penalty springs.
+struct Response {
+  std::vector<double> displacement;
+  std::vector<Vec<2>> excess;
+
+  void add(double factor, const Response& other) {
+    for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] += factor * other.displacement[i];
+    for (std::size_t k = 0; k < excess.size(); ++k) excess[k] += factor * other.excess[k];
   }
 };
 
+double energy(const Trial& trial, const Response& r) {
+  const auto& stiffness = *trial.model.stiffness;
+  return stiffness.wood_energy(r.displacement) + stiffness.glue_energy(r.displacement, trial.glue) +
+         0.5 * stiffness.traction_work(r.excess, r.displacement);
+}
+
+// Nodal forces that hold the panel in this state: reactions and loads.
+std::vector<double> forces(const Trial& trial, const Response& r) {
+  auto f = statics::multiply(trial.stiffness, r.displacement);
+  trial.model.stiffness->add_traction_forces(r.excess, f);
+  return f;
+}
+
+// Hands the tractions of perfect bonds' penalty springs over to the excess; returns the largest of them, relative to
+// the largest excess.
+double hand_over(const Trial& trial, Response& r) {
+  double change = 0, largest = std::numeric_limits<double>::min();
+  const auto jumps = trial.model.stiffness->jumps(r.displacement);
+  for (std::size_t k = 0; k < jumps.size(); ++k) {
+    const Vec<2> more(trial.perfect_t ? trial.glue.tangential * jumps[k][0] : 0,
+                      trial.perfect_n ? trial.glue.normal * jumps[k][1] : 0);
+    r.excess[k] += more;
+    change = std::max(change, more.cwiseAbs().maxCoeff());
+    largest = std::max(largest, r.excess[k].cwiseAbs().maxCoeff());
+  }
+  return change / largest;
+}
+
+// Solves one load case by the method of multipliers: what a perfect bond's penalty spring carries is handed over to its
+// traction until the spring is idle, so that the penalty leaves no trace; each step refines the linear solution too.
+// One factor serves all.
+Response respond(const Trial& trial, const statics::LowerMatrix& matrix, const statics::Supports& supports,
+                 const std::vector<double>& rhs, statics::Cholesky& cholesky) {
+  constexpr int kLeastSteps = 2, kMostSteps = 10;
+  constexpr double kSettled = 1e-4, kStalled = 0.5;  // tractions change by less than this; no longer fall by this (round-off)
+  Response r{cholesky.solve(rhs), {}};
+  r.excess.assign(trial.model.stiffness->jumps(r.displacement).size(), Vec<2>::Zero());
+  double previous = 1;
+  for (int step = 1; step <= kMostSteps; ++step) {
+    const double change = hand_over(trial, r);
+    std::vector<double> held(rhs.size(), 0.0);
+    trial.model.stiffness->add_traction_forces(r.excess, held);
+    auto residual = statics::multiply(matrix, r.displacement);
+    for (std::size_t i = 0; i < held.size(); ++i)
+      residual[i] = rhs[i] - residual[i] - (supports.fixed[i] ? 0.0 : held[i]);
+    const auto correction = cholesky.solve(residual);
+    for (std::size_t i = 0; i < held.size(); ++i) r.displacement[i] += correction[i];
+    if (step >= kLeastSteps && (change < kSettled || change > kStalled * previous)) break;
+    previous = change;
+  }
+  return r;
+}
+
 using Vectors = std::vector<std::vector<double>>;
 
-// Displacements for forces and given displacements, one pair for each load case.
-Vectors solve(const Trial& trial, const statics::Supports& supports, const Vectors& forces, const Vectors& given,
-              statics::Cholesky& cholesky, Result& result) {
+// Responses to forces and given displacements, one pair for each load case, on the same supports.
+std::vector<Response> respond(const Trial& trial, const statics::Supports& supports, const Vectors& loads,
+                              const Vectors& given, statics::Cholesky& cholesky, Result& result) {
   statics::LowerMatrix matrix;
   {
     const Stopwatch watch(result.factor_s);
@@ -131,47 +201,46 @@ Vectors solve(const Trial& trial, const statics::Supports& supports, const Vecto
     cholesky.factorise(matrix);
   }
   const Stopwatch watch(result.solve_s);
-  Vectors rhs;
-  for (std::size_t k = 0; k < forces.size(); ++k) {
-    rhs.push_back(statics::right_hand_side(trial.stiffness, supports, forces[k], given[k]));
+  std::vector<Response> responses;
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    const auto rhs = statics::right_hand_side(trial.stiffness, supports, loads[k], given[k]);
+    responses.push_back(respond(trial, matrix, supports, rhs, cholesky));
   }
-  return cholesky.solve(matrix, rhs);
+  return responses;
 }
 
-Modulus tension(const Trial& trial, const std::vector<double>& stretch) {
+Modulus tension(const Trial& trial, const Response& stretch) {
   const auto& s = trial.model.section;
   const double factor = s.length / s.thickness;  // for a stretch of 1 mm
-  const auto end = resultant(s, s.right, statics::multiply(trial.stiffness, stretch));
   Modulus modulus{Kind::kTension};
-  modulus.modulus_MPa = 2 * trial.energy(stretch) * factor;
-  modulus.reaction_modulus_MPa = end.force * factor;
+  modulus.modulus_MPa = 2 * energy(trial, stretch) * factor;
+  modulus.reaction_modulus_MPa = right_resultant(s, forces(trial, stretch)).force * factor;
   return modulus;
 }
 
 // The stretch that takes the axial force off the rotation is added to it.
-Modulus end_rotation(const Trial& trial, const std::vector<double>& stretch, const std::vector<double>& rotation) {
+Modulus end_rotation(const Trial& trial, const Response& stretch, const Response& rotation) {
   const auto& s = trial.model.section;
-  const auto of_stretch = resultant(s, s.right, statics::multiply(trial.stiffness, stretch));
-  const auto of_rotation = resultant(s, s.right, statics::multiply(trial.stiffness, rotation));
-  const double q = -of_rotation.force / of_stretch.force;
-  auto u = rotation;
-  for (std::size_t i = 0; i < u.size(); ++i) u[i] += q * stretch[i];
+  const double q =
+      -right_resultant(s, forces(trial, rotation)).force / right_resultant(s, forces(trial, stretch)).force;
+  auto bent = rotation;
+  bent.add(q, stretch);
   const double factor = s.length / s.second_moment();  // for a rotation of 1 rad
   Modulus modulus{Kind::kBendingEndRotation};
-  modulus.modulus_MPa = 2 * trial.energy(u) * factor;
-  modulus.reaction_modulus_MPa = (of_rotation.moment + q * of_stretch.moment) * factor;
+  modulus.modulus_MPa = 2 * energy(trial, bent) * factor;
+  modulus.reaction_modulus_MPa = right_resultant(s, forces(trial, bent)).moment * factor;
   return modulus;
 }
 
 // The rotation that the couple works through and the moment that arrives at the clamp give the modulus from reactions.
-Modulus end_couple(const Trial& trial, const std::vector<double>& forces, const std::vector<double>& u) {
+Modulus end_couple(const Trial& trial, const std::vector<double>& couple, const Response& bent) {
   const auto& s = trial.model.section;
   double rotation = 0;  // work of a couple of 1 N mm
-  for (std::size_t i = 0; i < u.size(); ++i) rotation += forces[i] * u[i];
-  const auto clamp = resultant(s, s.left, statics::multiply(trial.stiffness, u));
+  for (std::size_t i = 0; i < couple.size(); ++i) rotation += couple[i] * bent.displacement[i];
   Modulus modulus{Kind::kBendingEndCouple};
-  modulus.modulus_MPa = s.length / (2 * trial.energy(u) * s.second_moment());
-  modulus.reaction_modulus_MPa = -clamp.moment * s.length / (rotation * s.second_moment());
+  modulus.modulus_MPa = s.length / (2 * energy(trial, bent) * s.second_moment());
+  modulus.reaction_modulus_MPa =
+      -left_resultant(s, forces(trial, bent)).moment * s.length / (rotation * s.second_moment());
   return modulus;
 }
 
@@ -188,14 +257,14 @@ std::vector<Modulus> measure_kinds(const Trial& trial, const Options& options, s
     Vectors given{end_displacement(section, 1, 0)};
     if (wants(options, Kind::kBendingEndRotation)) given.push_back(end_displacement(section, 0, 1));
     const auto supports = end_plane_supports(section, trial.stiffness);
-    const auto u = solve(trial, supports, Vectors(given.size(), none), given, cholesky, result);
-    stretched = tension(trial, u[0]);
-    if (u.size() > 1) rotated = end_rotation(trial, u[0], u[1]);
+    const auto r = respond(trial, supports, Vectors(given.size(), none), given, cholesky, result);
+    stretched = tension(trial, r[0]);
+    if (r.size() > 1) rotated = end_rotation(trial, r[0], r[1]);
   }
   if (wants(options, Kind::kBendingEndCouple)) {
-    const Vectors forces{couple_forces(trial.model.connection, trial.model.mesh)};
-    const auto u = solve(trial, clamped_supports(section, trial.stiffness), forces, {none}, cholesky, result);
-    bent = end_couple(trial, forces[0], u[0]);
+    const auto couple = couple_forces(trial.model.connection, trial.model.mesh);
+    const auto r = respond(trial, clamped_supports(section, trial.stiffness), {couple}, {none}, cholesky, result);
+    bent = end_couple(trial, couple, r[0]);
   }
   std::vector<Modulus> moduli;
   for (const Kind kind : options.kinds) {
@@ -213,7 +282,8 @@ Result measure(const Panel<2>& panel, const Options& options) {
   std::optional<statics::Cholesky> cholesky;
   const double normal = glue_stiffness("D_n", options.compliance_n_mm_per_MPa, model.perfect, result.warnings);
   for (const double compliance : options.compliance_t_mm_per_MPa) {
-    Trial trial{model, {glue_stiffness("D_t", compliance, model.perfect, result.warnings), normal}, {}};
+    const double tangential = glue_stiffness("D_t", compliance, model.perfect, result.warnings);
+    Trial trial{model, {tangential, normal}, tangential == model.perfect, normal == model.perfect, {}};
     {
       const Stopwatch watch(result.assemble_s);
       trial.stiffness = model.stiffness->with(trial.glue);

@@ -21,7 +21,8 @@ struct Options {
   double compliance_n_mm_per_MPa = 0;                // 1/D_n, likewise
   int elements_through_strand = 3;
   glue::CuringOptions curing;  // point_spacing_mm = 0: as the elements
-  double perfect_bond = 300;   // stiffness that stands for a perfect bond, in units of wood stiffness / element length
+  double perfect_bond =
+      100;  // penalty that finds a perfect bond's tractions, in units of wood stiffness / element length
 };
 
 struct Modulus {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "strandlab/core/error.hpp"
 #include "strandlab/statics/stiffness.hpp"
 
 namespace strandlab::statics {
@@ -33,6 +34,13 @@ std::vector<double> sample(const Mesh& mesh, Vec<2> (*field)(const Vec<2>&)) {
     u.push_back(field(node)[1]);
   }
   return u;
+}
+
+// The nodes at x = 0, where both strands end.
+std::vector<bool> end_nodes(const Mesh& mesh) {
+  std::vector<bool> at_end;
+  for (const auto& node : mesh.nodes) at_end.push_back(node[0] < 1e-9);
+  return at_end;
 }
 
 // Strand ends and faces are where the mat put them, for coarser and finer elements than the lattice and for ones that
@@ -105,7 +113,7 @@ TEST(Springs, DoNotFeelARigidMotion) {
   auto panel = two_strands();
   for (auto& x : panel.strands[1].x) x[1] += 0.09;
   const auto mesh = make_mesh(panel, {true, true}, 3);
-  const PanelStiffness stiffness(mesh, make_springs(mesh, glue::cure(panel, {})));
+  const PanelStiffness stiffness(mesh, make_springs(mesh, glue::cure(panel, {}), end_nodes(mesh)));
   const auto u = sample(mesh, rigid);
   EXPECT_LT(stiffness.glue_energy(u, {100, 100}), 1e-24);
   EXPECT_LT(stiffness.wood_energy(u), 1e-18);
@@ -115,7 +123,7 @@ TEST(Springs, DoNotFeelARigidMotion) {
 TEST(Springs, StoreTheEnergyOfAJump) {
   const auto panel = two_strands();
   const auto mesh = make_mesh(panel, {true, true}, 3);
-  const PanelStiffness stiffness(mesh, make_springs(mesh, glue::cure(panel, {})));
+  const PanelStiffness stiffness(mesh, make_springs(mesh, glue::cure(panel, {}), end_nodes(mesh)));
   std::vector<double> slip(static_cast<std::size_t>(mesh.dofs()), 0.0), opening = slip;
   for (std::size_t n = static_cast<std::size_t>(mesh.strands[1].first_node); n < mesh.nodes.size(); ++n) {
     slip[2 * n] = 0.01;
@@ -129,7 +137,7 @@ TEST(Springs, StoreTheEnergyOfAJump) {
 TEST(PanelStiffness, AssemblesWhatItsEnergySays) {
   const auto panel = two_strands();
   const auto mesh = make_mesh(panel, {true, true}, 3);
-  const PanelStiffness stiffness(mesh, make_springs(mesh, glue::cure(panel, {})));
+  const PanelStiffness stiffness(mesh, make_springs(mesh, glue::cure(panel, {}), end_nodes(mesh)));
   const auto u =
       sample(mesh, [](const Vec<2>& x) { return Vec<2>(0.01 * std::sin(x[0] + 3 * x[1]), 0.02 * std::cos(2 * x[0])); });
   const GlueStiffness glue{70, 300};
@@ -137,6 +145,57 @@ TEST(PanelStiffness, AssemblesWhatItsEnergySays) {
   double work = 0;
   for (std::size_t i = 0; i < u.size(); ++i) work += 0.5 * force[i] * u[i];
   EXPECT_NEAR(work / (stiffness.wood_energy(u) + stiffness.glue_energy(u, glue)), 1, 1e-12);
+}
+
+// Where both faces end on a plane that is turned as a whole, u_x = -theta y, a thick glue line is at rest whatever the
+// faces' slopes do: nothing is locked there.
+TEST(Springs, LetAnEndPlaneTurnAsAWhole) {
+  auto panel = two_strands();
+  for (auto& x : panel.strands[1].x) x[1] += 0.05;
+  const auto mesh = make_mesh(panel, {true, true}, 3);
+  const auto springs = make_springs(mesh, glue::cure(panel, {}), end_nodes(mesh));
+  const auto& corner = springs.front();
+  Eigen::Matrix<double, 8, 1> u;
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_NEAR(mesh.nodes[corner.nodes[i]][0], 0, 1e-12);
+    u.segment<2>(2 * i) = Vec<2>(-0.01 * mesh.nodes[corner.nodes[i]][1], 0.3);
+  }
+  EXPECT_NEAR(corner.tangent.dot(u), 0, 1e-15);
+  EXPECT_NEAR(corner.normal.dot(u), 0, 1e-15);
+}
+
+// A bottom corner pushed up beyond the strand's middle folds the elements there; their nodes are moved until no element
+// is, and the strand away from the corner stays as it is.
+TEST(Mesh, StraightensFoldedCorners) {
+  auto panel = two_strands();
+  auto& strand = panel.strands[0];
+  strand.x[0] += Vec<2>(0.45, 0.3);
+  strand.x[1] += Vec<2>(0.1, 0.2);
+  const auto mesh = make_mesh(panel, {true, true}, 6);
+  EXPECT_GT(mesh.straightened, 0);
+  const auto reference = make_mesh(two_strands(), {true, true}, 6);
+  EXPECT_EQ(reference.straightened, 0);
+  for (const auto& e : mesh.elements) {
+    EXPECT_NO_THROW(incompatible_quadrilateral({mesh.nodes[e[0]], mesh.nodes[e[1]], mesh.nodes[e[2]], mesh.nodes[e[3]]},
+                                               PlaneStiffness::Identity()));
+  }
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    if (reference.nodes[n][0] < 3) continue;
+    EXPECT_NEAR((mesh.nodes[n] - reference.nodes[n]).norm(), 0, 1e-12);
+  }
+}
+
+// A strand turned inside out cannot be meshed.
+TEST(Mesh, SaysWhichStrandIsTooDistorted) {
+  auto panel = two_strands();
+  for (auto& x : panel.strands[1].x) x[0] = 20 - x[0];
+  for (auto& F : panel.strands[1].F) F(0, 0) = -1;
+  try {
+    make_mesh(panel, {true, true}, 3);
+    FAIL() << "no RunError";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("strand 2"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace
