@@ -549,6 +549,21 @@ struct Engine<Dim>::Impl {
     }
   }
 
+  // Calls visit(axis, side, first record, count) for a window's nodes on each roller plane.
+  template <class Visit>
+  static void each_wall(const WindowStore& w, const Frame<Dim>& f, Visit visit) {
+    for (int a = 0; a < Dim - 1; ++a) {
+      for (int side = 0; side < 2; ++side) {
+        const int at = f.wall[a][side] - w.window.first[a];
+        if (f.wall[a][side] == kNoWall || at < 0 || at >= w.window.count[a]) continue;
+        for (int k = 0; k < w.window.count[1 - a]; ++k) {
+          const int p = a == 0 ? k * w.window.count[0] + at : at * w.window.count[0] + k;
+          if (w.hi[p] >= w.lo[p]) visit(a, side, w.base[p] + w.lo[p], w.hi[p] - w.lo[p] + 1);
+        }
+      }
+    }
+  }
+
   // The body continues as its mirror image behind a roller: what fell on the ghost nodes is added to their mirror
   // images.
   void fold(const Frame<Dim>& f) {
@@ -574,6 +589,15 @@ struct Engine<Dim>::Impl {
             for (int k = 0; k < Dim; ++k) m[k] += k == axis ? -g[k] : g[k];
             m[Dim] += g[Dim];
             m[Dim + 1] += g[Dim + 1] - 2 * plane * g[axis];  // x.n of the mirrored point
+          }
+        });
+        // On the plane itself a face and its image have no normal component across it; the distance to the face stays.
+        each_wall(face, f, [&](int axis, int side, int first, int count) {
+          const double plane = f.origin[axis] + f.wall[axis][side] * f.cell[axis];
+          for (int i = first; i < first + count; ++i) {
+            double* s = surface.data() + static_cast<std::size_t>(i) * kSurfaceRecord<Dim>;
+            s[Dim + 1] -= plane * s[axis];
+            s[axis] = 0;
           }
         });
       }
@@ -943,17 +967,9 @@ struct Engine<Dim>::Impl {
         p = mass_at[r - start] > 0 ? p / mass_at[r - start] : 0;
       }
     }
-    for (int a = 0; a < Dim - 1; ++a) {
-      for (int side = 0; side < 2; ++side) {
-        const int at = f.wall[a][side] - w.window.first[a];
-        if (f.wall[a][side] == kNoWall || at < 0 || at >= w.window.count[a]) continue;
-        for (int p = 0; p < w.pencils(); ++p) {
-          if ((a == 0 ? p % w.window.count[0] : p / w.window.count[0]) != at) continue;
-          for (int row = w.lo[p]; row <= w.hi[p]; ++row)
-            filtered[static_cast<std::size_t>(w.base[p] + row) * Dim + a] = 0;
-        }
-      }
-    }
+    each_wall(w, f, [&](int axis, int, int first, int count) {
+      for (int r = first; r < first + count; ++r) filtered[static_cast<std::size_t>(r) * Dim + axis] = 0;
+    });
     each_ghost(w, f, true, [&](int axis, int, int ghost, int mirror, int count) {
       for (int i = 0; i < count; ++i) {
         for (int a = 0; a < Dim; ++a) {
