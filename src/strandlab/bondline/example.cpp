@@ -18,8 +18,8 @@ namespace {
 // n log-normal values at evenly spaced probabilities with the given mean and coefficient of variation of the sample.
 std::vector<double> log_normal(int n, double mean, double variation) {
   const auto values = [n](double sigma) {
-    std::vector<double> result;
-    for (int i = 0; i < n; ++i) result.push_back(std::exp(sigma * normal_quantile((i + 0.5) / n)));
+    std::vector<double> result(n);
+    for (int i = 0; i < n; ++i) result[i] = std::exp(sigma * normal_quantile((i + 0.5) / n));
     return result;
   };
   const auto excess = [&](double sigma) {

@@ -143,11 +143,11 @@ void flag_slip(const Points& branch, const Points& window, const Line& line, dou
     }
     reached = std::max(reached, point.load_N);
   }
-  std::vector<double> jumps;
-  for (std::size_t i = 1; i < window.size(); ++i)
+  std::vector<double> jumps, sizes;
+  for (std::size_t i = 1; i < window.size(); ++i) {
     jumps.push_back(residual(line, window[i]) - residual(line, window[i - 1]));
-  std::vector<double> sizes;
-  for (double jump : jumps) sizes.push_back(std::abs(jump));
+    sizes.push_back(std::abs(jumps.back()));
+  }
   const double allowed =
       std::max(8 * kMadToSigma * median(sizes), kSlipOfWindow * line.compliance * (slope.high_N - slope.low_N));
   for (std::size_t i = 0; i < jumps.size(); ++i) {

@@ -139,6 +139,7 @@ std::vector<Pair> holm_welch_pairs(const std::vector<std::vector<double>>& group
     }
   }
   std::vector<Pair*> by_p;
+  by_p.reserve(pairs.size());
   for (auto& pair : pairs) by_p.push_back(&pair);
   std::stable_sort(by_p.begin(), by_p.end(), [](const Pair* a, const Pair* b) { return a->p < b->p; });
   double floor = 0;

@@ -28,6 +28,8 @@ struct MaterialSettings {
   wood::Material material;
 };
 
+inline constexpr int kPointsPerCell = 2;  // material points per cell and axis, as press::Resolution has it
+
 // The defaults are the main job: an OSB mat of 20 rows pressed to 40 %.
 struct Case {
   Case();
@@ -44,14 +46,15 @@ struct Case {
   press::Resolution grid;
   mpm::Options mpm;  // its thread count is set from `threads` when a run starts
   vtest::Options test;
-  int threads = 0;  // 0: all cores
+  std::string bondline_file, bondline_group;  // absolute path of a `strandlab bondline` result, and its group; or empty
+  int threads = 0;                            // 0: all cores
   std::uint64_t seed = 1;
   double checkpoint_interval_s = 30;
 };
 
 // Reads a case file and applies overrides ("key.path=value", TOML values or bare words). Throws InputError with file,
-// line, key, what was given and what is allowed for anything a run could not use; a relative mat.file counts from the
-// case file.
+// line, key, what was given and what is allowed for anything a run could not use; relative mat.file and
+// glue.from_bondline count from the case file. With glue.from_bondline the glue compliance is that of glue.group there.
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 // The same from the text of a case; `source` stands for the file in messages.
 Case case_from_text(const std::string& text, const std::string& source, const std::vector<std::string>& overrides = {});
@@ -67,7 +70,8 @@ mat::Layup layup(const Case& c);
 std::vector<StrandKind> strand_kinds(const Case& c);
 // The mat of a case: read from its mat file, else formed with its seed. Throws InputError for a bad mat file.
 mat::Mat make_mat(const Case& c);
-// The panel before pressing, with the material points of the case's grid.
+// The panel before pressing, with the material points of the case's grid. Throws InputError when it does not fit into
+// the memory of this machine.
 Panel<2> make_panel(const Case& c, const mat::Mat& mat);
 
 }  // namespace strandlab::io

@@ -281,6 +281,12 @@ void add_glue_keys(std::vector<Key>& t) {
       "glue-line compliances 1/D_t along the strands; 0 is a perfect bond, and so is a negative one",
       [](auto& c) -> auto& { return c.test.compliance_t_mm_per_MPa; }));
   t.push_back(key(
+      "glue.from_bondline", "", kAny,
+      "result of `strandlab bondline` whose group gives 1/D_t in place of compliance_t_mm_per_MPa; \"\" for none",
+      [](auto& c) -> auto& { return c.bondline_file; }));
+  t.push_back(key(
+      "glue.group", "", kAny, "group of that result", [](auto& c) -> auto& { return c.bondline_group; }));
+  t.push_back(key(
       "glue.compliance_n_mm_per_MPa", "mm/MPa", kNotNegative, "glue-line compliance 1/D_n across the line",
       [](auto& c) -> auto& { return c.test.compliance_n_mm_per_MPa; }));
   t.push_back(key(

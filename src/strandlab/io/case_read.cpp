@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "strandlab/bondline/analysis.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/io/case.hpp"
@@ -400,14 +401,39 @@ int order_of(const Given& given) {
   return given.path.back() == "base" ? 0 : 1;
 }
 
+// A file name that counts from `folder`; an empty one stays empty.
+void make_absolute(std::string& file, const fs::path& folder) {
+  if (!file.empty()) file = fs::absolute(folder / file).lexically_normal().string();
+}
+
+// The glue compliance that a bond-line result gives, where the case names one.
+void use_bondline(Case& c, const fs::path& file) {
+  const auto fail = [&](const std::string& message) {
+    throw InputError(fmt::format("{}: {}", file.string(), message));
+  };
+  if (c.bondline_file.empty()) {
+    if (!c.bondline_group.empty()) fail("glue.group needs glue.from_bondline, the result that has the group");
+    return;
+  }
+  if (c.bondline_group.empty()) fail("glue.from_bondline needs glue.group, the group of that result to take");
+  const std::vector<double> measured{bondline::group_compliance(c.bondline_file, c.bondline_group)};
+  auto& given = c.test.compliance_t_mm_per_MPa;
+  if (given != measured && given != Case().test.compliance_t_mm_per_MPa)
+    fail(fmt::format(
+        "glue.compliance_t_mm_per_MPa = [{}] and glue.from_bondline ({} mm/MPa) contradict each other; give one",
+        fmt::join(given, ", "), measured.front()));
+  given = measured;
+}
+
 Case case_from_sources(Case c, const std::vector<Source>& sources) {
   std::vector<Given> given;
-  std::vector<fs::path> mat_folder(1);
+  fs::path mat_folder, bondline_folder;
   for (const auto& source : sources) {
     const auto first = given.size();
     flatten(source, source.table, {}, given);
     for (auto i = first; i < given.size(); ++i) {
-      if (given[i].path == Path{"mat", "file"}) mat_folder[0] = source.folder;
+      if (given[i].path == Path{"mat", "file"}) mat_folder = source.folder;
+      if (given[i].path == Path{"glue", "from_bondline"}) bondline_folder = source.folder;
     }
   }
   for (const auto& g : given) {
@@ -418,7 +444,8 @@ Case case_from_sources(Case c, const std::vector<Source>& sources) {
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
   for (const auto& g : ordered) apply(c, g);
-  if (!c.mat_file.empty()) c.mat_file = fs::absolute(mat_folder[0] / c.mat_file).lexically_normal().string();
+  make_absolute(c.mat_file, mat_folder);
+  make_absolute(c.bondline_file, bondline_folder);
   check_case(c, given, sources.front().name);
   return c;
 }
@@ -454,7 +481,9 @@ Case read_case(const fs::path& file, const std::vector<std::string>& overrides) 
   Source source{parse_toml(read_text(file), file.string()), file.string(), true, fs::absolute(file).parent_path()};
   Case c;
   c.name = file.stem().string();
-  return case_from_sources(std::move(c), with_overrides(std::move(source), overrides));
+  c = case_from_sources(std::move(c), with_overrides(std::move(source), overrides));
+  use_bondline(c, file);
+  return c;
 }
 
 Case case_from_text(const std::string& text, const std::string& source, const std::vector<std::string>& overrides) {

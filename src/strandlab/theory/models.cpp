@@ -40,6 +40,7 @@ void check_rows(std::size_t rows) {
 
 std::vector<double> row_moduli(const std::vector<Row>& rows, OffAxis off_axis) {
   std::vector<double> moduli;
+  moduli.reserve(rows.size());
   for (const Row& row : rows) moduli.push_back(strand_modulus_MPa(row, off_axis) * solid_fraction(row.statistics));
   return moduli;
 }

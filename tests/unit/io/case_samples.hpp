@@ -26,6 +26,8 @@ inline Case plain_case(const Sample& sample) {
 inline std::string other_value(const Key& key, const Case& c, const std::string& name) {
   const auto value = key.get(c, name);
   if (key.path == "mat.file") return "\"/data/mat.json\"";
+  if (key.path == "glue.from_bondline") return "\"/data/dls.json\"";
+  if (key.path == "glue.group") return "\"PF-25\"";
   if (key.path == "mat.rows") return "[\"core*3\"]";
   if (key.path == "test.kinds") return "[\"bending_end_couple\"]";
   if (key.path == "press.compactions") return "[0.05, 0.25]";
