@@ -1,0 +1,193 @@
+// The press's schedule, records and snapshots, and what it refuses.
+#include "strandlab/press/press.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "strandlab/core/error.hpp"
+
+namespace strandlab {
+namespace {
+
+constexpr double kRow = 0.8;  // mm
+
+// Rows of one strand each, `length` mm long, as the program makes them.
+Panel<2> rows(int count, double length) {
+  mat::Mat mat;
+  mat.length_mm = length;
+  mat.layer_thickness_mm = kRow;
+  for (int row = 0; row < count; ++row) {
+    mat::Layer layer;
+    layer.role = "surface";
+    layer.strands.emplace_back();
+    layer.strands.back().x0_mm = 0;
+    layer.strands.back().x1_mm = length;
+    mat.layers.push_back(layer);
+  }
+  return make_panel(mat, {{"surface", wood::library().front(), 0}}, kRow / 6, 6);
+}
+
+press::Setup<2> small_setup(const Panel<2>& panel) {
+  return press::setup(panel, {}, mpm::Side::kRoller, mpm::Options{});
+}
+
+press::Schedule schedule_to(std::vector<double> compactions) {
+  press::Schedule s;
+  s.compactions = std::move(compactions);
+  return s;
+}
+
+std::string refusal(const press::Schedule& schedule) {
+  const auto panel = rows(1, 2 * kRow);
+  try {
+    press::press<2>(panel, schedule, small_setup(panel), {});
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(Schedule, SpeedMustBePositive) {
+  for (double speed : {0.0, -16.0, std::nan("")}) {
+    auto s = schedule_to({0, 0.1});
+    s.speed_m_s = speed;
+    const auto message = refusal(s);
+    EXPECT_NE(message.find("speed"), std::string::npos) << message;
+    EXPECT_NE(message.find("must be positive"), std::string::npos) << message;
+  }
+}
+
+TEST(Schedule, CompactionsMustIncreaseFromZeroToBelowOne) {
+  EXPECT_NE(refusal(schedule_to({})).find("no compactions"), std::string::npos);
+  for (const auto& bad :
+       std::vector<std::vector<double>>{{0, 1}, {0.2, 0.1}, {0.1, 0.1}, {-0.1, 0.1}, {std::nan("")}}) {
+    const auto message = refusal(schedule_to(bad));
+    EXPECT_NE(message.find("must increase"), std::string::npos) << message;
+  }
+}
+
+// Grid of a mat: `cells_through_strand` cells through a row, whole cells between the sides, their width near aspect
+// times their height.
+TEST(Setup, CellsFitTheMat) {
+  const auto panel = rows(4, 10);
+  const auto s = press::setup(panel, press::Resolution{3, 2, true}, mpm::Side::kRoller, mpm::Options{});
+  EXPECT_DOUBLE_EQ(s.grid.cell[1], kRow / 3);
+  EXPECT_DOUBLE_EQ(s.grid.hi[1], 4 * kRow);
+  const double cells = 10 / s.grid.cell[0];
+  EXPECT_NEAR(cells, std::round(cells), 1e-12);
+  EXPECT_NEAR(s.grid.cell[0] / (2 * kRow / 3), 1, 0.05);
+  EXPECT_TRUE(s.grid.follow_platens);
+  EXPECT_EQ(s.grid.sides[0][0], mpm::Side::kRoller);
+  EXPECT_EQ(s.grid.sides[0][1], mpm::Side::kRoller);
+}
+
+// States are kept at every requested compaction: at most one step's closing beyond it, never short of it.
+TEST(Press, KeepsTheStateAtEveryCompaction) {
+  const auto panel = rows(2, 2 * kRow);
+  const std::vector<double> asked{0, 0.03, 0.05, 0.08};
+  std::vector<double> kept;
+  press::Sink<2> sink;
+  sink.snapshot = [&](const Panel<2>& p, int index) {
+    EXPECT_EQ(index, static_cast<int>(kept.size()));
+    kept.push_back(p.compaction());
+  };
+  const auto outcome = press::press<2>(panel, schedule_to(asked), small_setup(panel), sink);
+  ASSERT_EQ(kept.size(), asked.size());
+  EXPECT_EQ(kept[0], 0);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    EXPECT_GE(kept[i], asked[i] - 1e-12);
+    EXPECT_LT(kept[i], asked[i] + 1e-3);
+  }
+  EXPECT_EQ(outcome.particles, 2u * 12 * 6);
+  EXPECT_GT(outcome.steps, 0);
+}
+
+// With both platens moving, the mat stays where it is: its middle moves by less than a hundredth of the closing.
+TEST(Press, SymmetricPlatensKeepTheMiddle) {
+  const auto panel = rows(2, 2 * kRow);
+  auto schedule = schedule_to({0, 0.1});
+  schedule.symmetric = true;
+  Panel<2> last;
+  press::Sink<2> sink;
+  sink.snapshot = [&](const Panel<2>& p, int) { last = p; };
+  press::press<2>(panel, schedule, small_setup(panel), sink);
+  EXPECT_NEAR(last.bottom_mm, 0.05 * 2 * kRow, 2e-3 * kRow);
+  EXPECT_NEAR(0.5 * (last.bottom_mm + last.top_mm), kRow, 1e-9);
+  double mean = 0;
+  for (const auto& s : last.strands) {
+    for (const auto& x : s.x) mean += x[1] / static_cast<double>(2 * s.size());
+  }
+  EXPECT_NEAR(mean, kRow, 0.01 * 0.1 * 2 * kRow);
+}
+
+// Records come at the interval asked for, in order, and cover the whole run.
+TEST(Press, RecordsAtTheIntervalAskedFor) {
+  const auto panel = rows(2, 2 * kRow);
+  auto schedule = schedule_to({0, 0.1});
+  schedule.record_interval_compaction = 0.01;
+  const auto records = press::press<2>(panel, schedule, small_setup(panel), {}).records;
+  ASSERT_GE(records.size(), 10u);
+  ASSERT_LE(records.size(), 11u);
+  for (std::size_t i = 1; i < records.size(); ++i) {
+    EXPECT_NEAR(records[i].compaction, 0.01 * static_cast<double>(i), 1e-3);
+    EXPECT_GT(records[i].time_ms, records[i - 1].time_ms);
+    EXPECT_NEAR(records[i].stress_MPa, 0.5 * (records[i].force_top_N + records[i].force_bottom_N) / (2 * kRow), 1e-12);
+  }
+}
+
+// The inertia watch: 16 m/s on two rows is quiet, 200 m/s is a shock and says so in plain words.
+TEST(Press, WarnsOfTooFastPressing) {
+  const auto panel = rows(4, 2 * kRow);
+  auto schedule = schedule_to({0, 0.15});
+  EXPECT_TRUE(press::press<2>(panel, schedule, small_setup(panel), {}).warnings.empty());
+  schedule.speed_m_s = 200;
+  const auto warnings = press::press<2>(panel, schedule, small_setup(panel), {}).warnings;
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings.front().find("press.speed_m_s"), std::string::npos) << warnings.front();
+}
+
+// When a step fails, the last good state is handed out before the error leaves. Here the mat slides out of its window
+// sideways half-way through the run: free sides, smooth platens, 100 m/s along the panel.
+TEST(Press, HandsOutTheLastGoodStateWhenAStepFails) {
+  auto panel = rows(2, 2 * kRow);
+  for (auto& s : panel.strands) s.v.assign(s.size(), Vec<2>(1e5, 0));
+  mpm::Options smooth;
+  smooth.friction = smooth.platen_friction = 0;
+  const auto setup = press::setup(panel, {}, mpm::Side::kFree, smooth);
+  std::vector<press::Checkpoint<2>> states;
+  press::Sink<2> sink;
+  sink.checkpoint_interval_s = 1e9;
+  sink.checkpoint = [&](const press::Checkpoint<2>& c) { states.push_back(c); };
+  try {
+    press::press<2>(panel, schedule_to({0, 0.3}), setup, sink);
+    FAIL() << "the mat stayed in the window";
+  } catch (const RunError& e) {
+    EXPECT_NE(std::string(e.what()).find("left the grid"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("strand in row"), std::string::npos) << e.what();
+  }
+  ASSERT_EQ(states.size(), 2u);  // at the snapshot of C = 0, and the last good one
+  EXPECT_GT(states.back().panel.compaction(), 0.01);
+  EXPECT_GT(states.back().engine.step, 0);
+  EXPECT_GT(states.back().records.size(), 9u);
+}
+
+TEST(Record, BalanceIsWorkMinusAllTerms) {
+  press::Record r;
+  EXPECT_EQ(r.balance_error(), 0);
+  r.platen_work_mJ = 10;
+  r.elastic_mJ = 4;
+  r.plastic_mJ = 3;
+  r.friction_mJ = 1;
+  r.contact_mJ = 0.5;
+  r.filter_mJ = 0.25;
+  r.kinetic_mJ = 0.25;
+  EXPECT_DOUBLE_EQ(r.balance_error(), 0.1);
+  EXPECT_DOUBLE_EQ(r.internal_mJ(), 7);
+}
+
+}  // namespace
+}  // namespace strandlab

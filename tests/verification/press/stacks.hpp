@@ -1,0 +1,87 @@
+// Hand-made panels for the press tests: flat rows without gaps, lattices in 2D and 3D, and the closed forms they
+// follow.
+#pragma once
+
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "strandlab/press/press.hpp"
+
+namespace strandlab::press_tests {
+
+inline wood::Material poplar(bool yields) {
+  wood::Material m = wood::library().front();
+  if (!yields) m.Y_L = m.Y_R = m.Y_T = m.S_RT = m.S_RL = m.S_TL = 1e9;
+  return m;
+}
+
+// A strand that fills low..high with the given numbers of points.
+template <int Dim>
+Strand<Dim> strand(const wood::Material& material, double angle_deg, int row, const Vec<Dim>& low, const Vec<Dim>& high,
+                   const std::array<int, Dim>& points) {
+  Strand<Dim> s;
+  s.kind = angle_deg == 0 ? "surface" : "core";
+  s.row = row;
+  s.angle_deg = angle_deg;
+  s.material = wood::in_strand_axes(material, angle_deg);
+  s.points = points;
+  std::size_t count = 1;
+  for (int a = 0; a < Dim; ++a) {
+    s.spacing[a] = (high[a] - low[a]) / points[a];
+    count *= static_cast<std::size_t>(points[a]);
+  }
+  for (std::size_t p = 0; p < count; ++p) {
+    Vec<Dim> x;
+    std::size_t rest = p;
+    for (int a = 0; a < Dim; ++a) {
+      x[a] = low[a] + (static_cast<double>(rest % points[a]) + 0.5) * s.spacing[a];
+      rest /= points[a];
+    }
+    s.x.push_back(x);
+  }
+  s.v.assign(count, Vec<Dim>::Zero());
+  s.F.assign(count, Tensor<Dim>::Identity());
+  s.stress.assign(count, Voigt::Zero());
+  s.plastic.assign(count, 0.0);
+  return s;
+}
+
+// A confined strand (no strain along and across) under compaction C, compression positive, MPa (physics.md 1.1 and 1.3
+// with Y_R = Y_T = Y, Y_L infinite). There the yield function is |s_R - s_T|/Y, and the flow moves strain from R to T:
+// one unknown p = -eps_p_R = eps_p_T = alpha. Kirchhoff stress tau = C0 (eps - eps_p), Cauchy tau/J, and
+//   |s_R - s_T| = Y + K p^n
+// which is solved for p by bisection. The stiffness comes from the nine constants; nothing is taken from the engine.
+class ConfinedStrand {
+ public:
+  explicit ConfinedStrand(const wood::Material& m) : material_(m) {
+    Eigen::Matrix3d s;                                   // compliance of the normal strains, order L, R, T
+    s << 1 / m.E_L, -m.nu_RL / m.E_R, -m.nu_TL / m.E_T,  //
+        -m.nu_RL / m.E_R, 1 / m.E_R, -m.nu_TR / m.E_T,   //
+        -m.nu_TL / m.E_T, -m.nu_TR / m.E_T, 1 / m.E_T;
+    stiffness_ = s.inverse();
+  }
+  // -C_RR ln(1 - C)/(1 - C)
+  double elastic(double C) const { return -stiffness_(1, 1) * std::log(1 - C) / (1 - C); }
+  double hill(double C) const {
+    double low = 0, high = 1;
+    for (int i = 0; i < 200; ++i) {
+      const double p = 0.5 * (low + high);
+      const Eigen::Vector3d s = stress(C, p);
+      const bool yields = s[2] - s[1] > material_.Y_R + material_.hardening_K * std::pow(p, material_.hardening_n);
+      (yields ? low : high) = p;
+    }
+    return -stress(C, low)[1];
+  }
+
+ private:
+  Eigen::Vector3d stress(double C, double p) const {
+    return stiffness_ * Eigen::Vector3d(0, std::log(1 - C) + p, -p) / (1 - C);
+  }
+  wood::Material material_;
+  Eigen::Matrix3d stiffness_;
+};
+
+}  // namespace strandlab::press_tests
