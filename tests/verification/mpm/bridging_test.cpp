@@ -1,11 +1,13 @@
 // One strand that bridges a gap and is pushed into it: three rows of which the middle one is whole, the bottom one has
 // a gap and the top one only a strand over the gap's middle. Half of it, with a plane of symmetry at the gap's middle.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "strandlab/press/press.hpp"
+#include "support/report.hpp"
 
 namespace strandlab::press {
 namespace {
@@ -93,21 +95,19 @@ struct Errors {
   double deflection, angle, largest_angle;
 };
 
-Errors compare(const Line& a, const Line& fine, int cells) {
+Errors compare(const Line& a, int cells, const Line& fine, int finer_cells) {
   const Errors e{difference(a.deflection, fine.deflection), difference(a.angle, fine.angle),
                  std::abs(largest(a.angle) / largest(fine.angle) - 1)};
-  std::printf(
-      "bridged gap, %d cells: deflection %.4f mm (finer %.4f), rms difference %.2f %%; angle %.2f degrees (finer "
-      "%.2f), rms difference %.2f %%\n",
-      cells, largest(a.deflection), largest(fine.deflection), 100 * e.deflection, 180 / M_PI * largest(a.angle),
-      180 / M_PI * largest(fine.angle), 100 * e.angle);
+  const std::string what = fmt::format("strand over a gap, {} cells against {} through it: ", cells, finer_cells);
+  report(what + "rms difference of deflection, relative", e.deflection, cells == 3 ? "2 %" : "falls");
+  report(what + "rms difference of grain angle, relative", e.angle, cells == 3 ? "3 %" : "falls");
   return e;
 }
 
 // At the default resolution the strand's deflection and grain angle are those of twice the resolution.
 TEST(BridgedGap, DeflectionAndGrainAngleConverge) {
   const Line coarse = press_bridge(3), fine = press_bridge(6);
-  const Errors e = compare(coarse, fine, 3);
+  const Errors e = compare(coarse, 3, fine, 6);
   EXPECT_GT(largest(fine.deflection), 0.2);
   EXPECT_GT(largest(fine.angle), 0.1);
   EXPECT_LT(e.deflection, 0.02);
@@ -118,7 +118,7 @@ TEST(BridgedGap, DeflectionAndGrainAngleConverge) {
 // Against four times the resolution both errors fall as the cells are halved.
 TEST(BridgedGap, ConvergesFurtherNightly) {
   const Line coarse = press_bridge(3), fine = press_bridge(6), finest = press_bridge(12);
-  const Errors a = compare(coarse, finest, 3), b = compare(fine, finest, 6);
+  const Errors a = compare(coarse, 3, finest, 12), b = compare(fine, 6, finest, 12);
   EXPECT_LT(b.deflection, a.deflection);
   EXPECT_LT(b.angle, a.angle);
 }

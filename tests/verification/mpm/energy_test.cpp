@@ -1,10 +1,12 @@
 // Mass and energy of pressed mats.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "strandlab/mat/form.hpp"
 #include "strandlab/press/press.hpp"
+#include "support/report.hpp"
 
 namespace strandlab::press {
 namespace {
@@ -46,12 +48,9 @@ void expect_balance(const mat::Mat& mat, double compaction, double ramp, double 
     EXPECT_GT(r.plastic_mJ, 0) << "at C = " << r.compaction;
     EXPECT_GT(r.friction_mJ, 0) << "at C = " << r.compaction;
   }
-  const auto& last = outcome.records.back();
-  std::printf(
-      "energy, %zu strands, Courant %.1f: worst balance %.4f %%; at C = %.2f work %.3f = kinetic %.3f + elastic %.3f + "
-      "plastic %.3f + friction %.3f + contact %.3f + filter %.3f mJ\n",
-      panel.strands.size(), courant, 100 * worst, last.compaction, last.platen_work_mJ, last.kinetic_mJ,
-      last.elastic_mJ, last.plastic_mJ, last.friction_mJ, last.contact_mJ, last.filter_mJ);
+  report(fmt::format("{} strands pressed to C = {}, Courant number {}: worst energy balance over the platens' work",
+                     panel.strands.size(), compaction, courant),
+         worst, "1 %");
 }
 
 TEST(Energy, PlatenWorkIsFoundAgainInAPressedSlice) {

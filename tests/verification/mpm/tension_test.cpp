@@ -1,6 +1,8 @@
 // Homogeneous tension of an isotropic block by dynamics, plane strain: E/(1 - nu^2).
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "support/report.hpp"
 #include "verification/mpm/single_block.hpp"
 
 namespace strandlab::mpm {
@@ -61,7 +63,8 @@ TEST(Tension, PlaneStrainModulus) {
   const double exact = kE / (1 - kNu * kNu);
   for (double shift : {0.0, 0.15, 0.25, 0.37, 0.5, 0.8}) {
     const double E = modulus(shift);
-    std::printf("tension, block %.2f cells off the grid lines: %.1f MPa, %+.3f %%\n", shift, E, 100 * (E / exact - 1));
+    report(fmt::format("tension by dynamics, block {} cells off the grid lines: modulus against E/(1 - nu^2)", shift),
+           E, fmt::format("{:.0f} within {} %", exact, shift == 0 ? 0.5 : 2), "MPa");
     EXPECT_NEAR(E / exact, 1, shift == 0 ? 0.005 : 0.02) << "offset " << shift;
   }
 }
