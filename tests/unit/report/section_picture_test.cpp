@@ -13,6 +13,12 @@
 #include "synthetic_panel.hpp"
 #include "unit/io/temporary_folder.hpp"
 
+// For the leak checker of the debug build: fontconfig keeps its caches to the end of the program.
+extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libfontconfig";
+}  // NOLINT(bugprone-reserved-identifier)
+
 namespace strandlab::report {
 namespace {
 
