@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import resource
+import shutil
 import signal
 
 from program import SOURCE, DONE, check, expect_bad_input, files, finish, scratch, strandlab
@@ -52,7 +53,9 @@ def overrides():
     expect_bad_input(["mat", "panel.toml", "--set", "press.compactions=[0"], ["--set press.compactions=[0", "key.path=value"])
     expect_bad_input(["mat", "panel.toml", "--set", "pres.speed_m_s=3"], ["did you mean press?"])
     expect_bad_input(["mat", "panel.toml", "--set", "press.speed_m_s=-3"], ["press.speed_m_s = -3 m/s"])
-    expect_bad_input(["mat", "panel.toml", "--set", "mat.length_mm=1e9"], ["memory"])
+    expect_bad_input(["mat", "panel.toml", "--set", "mat.length_mm=1e9"], ["mat.length_mm", "at most 100000"])
+    expect_bad_input(["mat", "panel.toml", "--set", "mat.length_mm=1e5", "--set", "grid.cells_through_strand=32",
+                      "--set", "grid.cell_aspect=0.25"], ["particles", "MB of memory", "mat.length_mm"])
 
 
 def changed(**layer):
@@ -117,6 +120,7 @@ def hdf5_files():
     del record["steps"]["test"]
     pathlib.Path("pressed/run.json").write_text(json.dumps(record), encoding="utf-8")
     pathlib.Path("pressed/moduli.csv").unlink()
+    shutil.rmtree("pressed/plots")
     for name in ("checkpoint.h5", "checkpoint.previous.h5"):
         pathlib.Path("pressed", name).write_bytes(whole[:1000])
     result = expect_no_new_results(["press", "panel.toml", "-o", "pressed"])
@@ -135,7 +139,7 @@ def expect_no_new_results(arguments):
 
 def no_permission():
     """A folder that may not be written: as nobody where the test runs as root."""
-    pathlib.Path("panel.toml").write_text("[mat]\nlength_mm = 5\n", encoding="utf-8")
+    pathlib.Path("panel.toml").write_text("[mat]\nlength_mm = 50\n", encoding="utf-8")
     pathlib.Path("closed").mkdir()
     os.chmod("closed", 0o555)
     os.chmod(".", 0o755)

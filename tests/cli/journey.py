@@ -7,7 +7,7 @@ import random
 import subprocess
 import time
 
-from program import DONE, PROGRAM, SOURCE, check, files, finish, scratch, strandlab
+from program import DONE, FAILED, PROGRAM, SOURCE, check, files, finish, scratch, strandlab
 
 # Two rows of 5 mm pressed to 4 %: a second of work.
 CASE = """[mat]
@@ -24,7 +24,7 @@ compactions = [0, 0.02, 0.04]
 [glue]
 compliance_t_mm_per_MPa = [0, 0.0105]
 [run]
-checkpoint_interval_s = 0.01
+checkpoint_interval_s = 0.05
 """
 
 # What must not depend on kills and threads, to the last bit.
@@ -144,7 +144,19 @@ def killed():
     check(results("killed") == results("whole"), "the bits after kills are those of an undisturbed run")
 
 
-for test in (init_and_check, overrides, single_steps, run_folder, threads, killed):
+def failing():
+    """A press faster than the waves it makes throws particles out: exit code 3, what happened where, the last good state kept."""
+    pathlib.Path("a.toml").write_text(CASE, encoding="utf-8")
+    result = strandlab("press", "a.toml", "--set", "press.speed_m_s=1000", "--set", "press.compactions=[0.97]",
+                       "--set", "press.ramp_time_fraction=0", "--set", "grid.courant=0.9")
+    check(result.returncode == FAILED, f"exit code {result.returncode}, expected 3")
+    for word in ("step", "time", "strand", "mm"):
+        check(word in result.stderr, f"the message says the {word}: {result.stderr}")
+    check(pathlib.Path("runs/a/checkpoint.h5").stat().st_size > 0, "the last good state is kept")
+    check(result.stderr.split(": ", 1)[1].strip() in pathlib.Path("runs/a/log.txt").read_text(encoding="utf-8"), "the log has the error")
+
+
+for test in (init_and_check, overrides, single_steps, run_folder, threads, killed, failing):
     with scratch():
         test()
 finish()

@@ -7,11 +7,10 @@
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
+#include "strandlab/io/case_estimate.hpp"
 
 namespace strandlab::io {
 namespace {
-
-constexpr int kPointsPerCell = 2;  // per axis, as press::Resolution has it
 
 std::vector<std::string> kind_names(const Case& c) {
   std::vector<std::string> names;
@@ -36,8 +35,8 @@ std::pair<std::string, int> parse_row(const std::string& row) {
   int count = 0;
   const char* end = row.data() + row.size();
   const auto [last, error] = std::from_chars(row.data() + star + 1, end, count);
-  if (error != std::errc() || last != end || count < 1 || count > 10000) {
-    throw InputError(fmt::format("row \"{}\": after * comes a number of rows from 1 to 10000, as in \"core*10\"", row));
+  if (error != std::errc() || last != end || count < 1 || count > 1000) {
+    throw InputError(fmt::format("row \"{}\": after * comes a number of rows from 1 to 1000, as in \"core*10\"", row));
   }
   return {row.substr(0, star), count};
 }
@@ -79,6 +78,7 @@ mat::Mat make_mat(const Case& c) {
 }
 
 Panel<2> make_panel(const Case& c, const mat::Mat& mat) {
+  refuse_too_large(c, mat);
   auto kinds = strand_kinds(c);
   // A strand of a mat file may name any material of the case, also one that no kind uses.
   for (const auto& user : c.materials) kinds.push_back({"material " + user.material.name, user.material, 0});

@@ -1,9 +1,14 @@
 #include "strandlab/io/case_estimate.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <thread>
+
+#include "strandlab/core/error.hpp"
 
 namespace strandlab::io {
 namespace {
@@ -16,6 +21,10 @@ constexpr double kStoredBytesPerParticle = 600;   // of one state: HDF5 and Para
 constexpr double kSolveSecondsPerElement = 4e-6;  // of a virtual test, per factorisation and element
 constexpr double kSolveExponent = 1.2;            // sparse Cholesky in two dimensions
 constexpr double kElementsAtReference = 1e5;
+
+double memory_bytes(double particles) {
+  return particles * kBytesPerParticle + 5e7;
+}
 
 // Shortest time (s) in which a wave passes a cell, over all strands and both axes.
 double transit_time(const Panel<2>& panel, double cell_length, double cell_height) {
@@ -41,6 +50,26 @@ double elements(const Case& c, const Panel<2>& panel) {
 
 }  // namespace
 
+double particle_count(const Case& c, const mat::Mat& mat) {
+  const double through = c.grid.cells_through_strand * kPointsPerCell;
+  const double spacing = mat.layer_thickness_mm / through * c.grid.cell_aspect;
+  double length = 0;
+  for (const auto& layer : mat.layers) {
+    for (const auto& strand : layer.strands) length += strand.x1_mm - strand.x0_mm;
+  }
+  return through * length / spacing;
+}
+
+void refuse_too_large(const Case& c, const mat::Mat& mat) {
+  const double particles = particle_count(c, mat), needed = memory_bytes(particles);
+  const double machine = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+  if (needed < machine) return;
+  throw InputError(
+      fmt::format("the panel of {} mm would have {:.3g} particles and need {:.3g} MB of memory, this machine has "
+                  "{:.3g} MB; shorten mat.length_mm or lower grid.cells_through_strand",
+                  mat.length_mm, particles, needed / 1e6, machine / 1e6));
+}
+
 int thread_count(const Case& c) {
   return c.threads > 0 ? c.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
@@ -65,7 +94,7 @@ Estimate estimate(const Case& c, const Panel<2>& panel) {
   const auto n = static_cast<double>(e.particles);
   const auto states = static_cast<double>(c.schedule.compactions.size());
   const double speed_up = 1 + kSpeedUpPerThread * (thread_count(c) - 1);
-  e.memory_bytes = n * kBytesPerParticle + 5e7;
+  e.memory_bytes = memory_bytes(n);
   e.disk_bytes = n * kStoredBytesPerParticle * (states + 2) + 1e7;
   e.press_s = n * e.steps * kNsPerParticleStep * 1e-9 / speed_up;
   const double element_count = elements(c, panel);

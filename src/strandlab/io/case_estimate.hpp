@@ -25,6 +25,11 @@ struct Estimate {
 // pressing time over time step. Wall time and memory from measured costs per particle (docs/performance.md).
 Estimate estimate(const Case& c, const Panel<2>& panel);
 
+// Material points of the panel that make_panel() would make of this mat.
+double particle_count(const Case& c, const mat::Mat& mat);
+// Throws InputError when pressing the mat needs more memory than this machine has.
+void refuse_too_large(const Case& c, const mat::Mat& mat);
+
 // Threads of a run: what the case says, or one per core of this machine.
 int thread_count(const Case& c);
 

@@ -158,7 +158,7 @@ Key base_key() {
 
 void add_mat_keys(std::vector<Key>& t) {
   t.push_back(key(
-      "mat.length_mm", "mm", kPositive, "length of the specimen along the panel",
+      "mat.length_mm", "mm", {.lo = 0, .hi = 1e5, .lo_open = true}, "length of the specimen along the panel",
       [](auto& c) -> auto& { return c.length_mm; }));
   t.push_back(key(
       "mat.layer_thickness_mm", "mm", kPositive, "thickness of every strand",

@@ -63,10 +63,14 @@ std::string default_text(const Key& key, const Case& defaults) {
   return surface == core ? surface : fmt::format("{}; core {}", surface, core);
 }
 
-// A | in a table cell ends it.
-std::string cell(std::string text) {
-  for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) text.insert(at, "\\");
-  return text;
+// A | would end the table cell.
+std::string cell(const std::string& text) {
+  std::string escaped;
+  for (const char ch : text) {
+    if (ch == '|') escaped += '\\';
+    escaped += ch;
+  }
+  return escaped;
 }
 
 std::string sentence(std::string text) {
