@@ -717,7 +717,6 @@ struct Engine<Dim>::Impl {
     view.slot = table.slots.data();
     view.friction = options.friction;
     view.platen_friction = options.platen_friction;
-    view.traction = nullptr;
     const auto count = static_cast<int>(table.pencils.size());
     const double start = options.profile ? ticks() : 0;
 #pragma omp parallel for schedule(dynamic, 8) num_threads(options.threads) if (options.threads > 1)
@@ -731,6 +730,7 @@ struct Engine<Dim>::Impl {
       total.contact += r.contact;
       total.platen_work += r.platen_work;
       total.kinetic_change += r.kinetic_change;
+      total.force_change += r.force_change;
       total.external_work += r.external_work;
       total.contact_ticks += r.contact_ticks;
       total.overflow |= r.overflow;
@@ -743,7 +743,7 @@ struct Engine<Dim>::Impl {
     state.energies.contact += total.contact;
     state.energies.platen_work += total.platen_work;
     state.energies.external_work += total.external_work;
-    state.energies.filter += total.kinetic_change;
+    state.energies.filter += total.kinetic_change + total.force_change;
     for (int k = 0; k < 2; ++k) force[k] = total.platen_impulse[k] / f.dt;
     if (options.profile) {
       const double all = (ticks() - start) * (options.threads > 1 ? options.threads : 1);
@@ -764,7 +764,7 @@ struct Engine<Dim>::Impl {
     for (int t = 0; t < count; ++t) {
       const auto& r = tile_results[t];
       state.energies.plastic += r.plastic;
-      state.energies.filter -= r.kinetic_change;
+      state.energies.filter -= r.kinetic_change + r.stress_change;
       yielding += r.yielding;
       for (int a = 0; a < 3; ++a) moved[a] = std::max(moved[a], r.drift[a]);
       if (r.bad) report_failure(tiles[t], r.bad - 1);
@@ -876,12 +876,12 @@ struct Engine<Dim>::Impl {
     });
   }
 
-  // Their work on the mean velocity of the step.
+  // Their work on the displacements of the step.
   void book_tractions(const Frame<Dim>& f) {
     each_traction(f, [&](std::size_t node, const double* t, double area) {
       if (!(nodes[node + 7] > 0)) return;
       for (int a = 0; a < Dim; ++a) {
-        state.energies.external_work += f.dt * t[a] * area * (nodes[node + a] - 0.5 * nodes[node + Dim + a]);
+        state.energies.external_work += f.dt * t[a] * area * nodes[node + a];
       }
     });
   }

@@ -73,12 +73,14 @@ struct Options {
 
 // Running totals, mJ (2D: per mm depth). Each from its own definition.
 struct Energies {
-  double kinetic = 0;        // of the particles, now
-  double elastic = 0;        // stored, now
-  double plastic = 0;        // dissipated: sum V0 tau : d eps_p
-  double friction = 0;       // dissipated by slip against friction
-  double contact = 0;        // lost in inelastic meetings (normal impulses)
-  double filter = 0;         // lost to the velocity filter and to lumping when impulses pass from grid to particles
+  double kinetic = 0;   // of the particles, now
+  double elastic = 0;   // stored, now
+  double plastic = 0;   // dissipated: sum V0 tau : d eps_p
+  double friction = 0;  // dissipated by slip against friction
+  double contact = 0;   // lost in inelastic meetings (normal impulses)
+  // Lost in the algorithm: to the velocity filter, to lumping when impulses pass from grid to particles, and because
+  // forces change the grid's velocity over its mean in a step while stresses work on its last.
+  double filter = 0;
   double platen_work = 0;    // done by the platens on the bodies
   double external_work = 0;  // done by tractions and gravity
 };

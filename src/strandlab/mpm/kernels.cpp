@@ -1,5 +1,5 @@
-// Particles to grid, grid update with contact, grid to particles: see kernels.hpp. Compiled once per instruction set with
-// STRANDLAB_ISA naming the build.
+// Particles to grid, grid update with contact, grid to particles: see kernels.hpp. Compiled once per instruction set
+// with STRANDLAB_ISA naming the build.
 #include "strandlab/mpm/kernels.hpp"
 
 #include <time.h>
@@ -41,8 +41,8 @@ struct Stencil {
   alignas(64) long long node[Dim][kBlock];
 };
 
-// Bardenhagen & Kober (2004): the mean of a hat function over the particle's domain, half-width r cells, at distance d from
-// the nearest node. Over the right neighbour's hat max(xi, 0) the mean on [d - r, d + r] is (u1^2 - u0^2)/(4r).
+// Bardenhagen & Kober (2004): the mean of a hat function over the particle's domain, half-width r cells, at distance d
+// from the nearest node. Over the right neighbour's hat max(xi, 0) the mean on [d - r, d + r] is (u1^2 - u0^2)/(4r).
 STRANDLAB_INLINE void gimp_axis(const Pack& d, const Pack& r, double inverse_cell, double (&w)[3][kBlock],
                                 double (&g)[3][kBlock]) {
   const Pack zero{};
@@ -69,14 +69,16 @@ STRANDLAB_INLINE void stencil_at(const Pack (&x)[Dim], const Pack (&stretch)[Dim
     const Pack rounded = shifted(xi);
     const Mask node = bits(rounded);
     __builtin_memcpy(s.node[a], &node, sizeof node);
-    const Pack r = smaller(larger(absolute(stretch[a]) * (half_size[a] * frame.inverse_cell[a]), splat(1e-3)), splat(0.5));
+    const Pack r =
+        smaller(larger(absolute(stretch[a]) * (half_size[a] * frame.inverse_cell[a]), splat(1e-3)), splat(0.5));
     gimp_axis(xi - (rounded - kRounder), r, frame.inverse_cell[a], s.w[a], s.g[a]);
   }
 }
 
 // Records of the first row of a lane's stencil on each of its 3 (2D) or 9 (3D) pencils.
 template <int Dim>
-STRANDLAB_INLINE void pencil_records(const Window& window, const Stencil<Dim>& s, int lane, int (&record)[Dim == 2 ? 3 : 9]) {
+STRANDLAB_INLINE void pencil_records(const Window& window, const Stencil<Dim>& s, int lane,
+                                     int (&record)[Dim == 2 ? 3 : 9]) {
   const int row = static_cast<int>(s.node[Dim - 1][lane]) - 1;
   const int c0 = static_cast<int>(s.node[0][lane]) - 1 - window.first[0];
   if constexpr (Dim == 2) {
@@ -92,13 +94,17 @@ STRANDLAB_INLINE void pencil_records(const Window& window, const Stencil<Dim>& s
 // Weight of a pencil for a lane and its lateral gradients.
 template <int Dim>
 STRANDLAB_INLINE double pencil_weight(const Stencil<Dim>& s, int q, int lane) {
-  if constexpr (Dim == 2) return s.w[0][q][lane];
-  else return s.w[0][q % 3][lane] * s.w[1][q / 3][lane];
+  if constexpr (Dim == 2)
+    return s.w[0][q][lane];
+  else
+    return s.w[0][q % 3][lane] * s.w[1][q / 3][lane];
 }
 template <int Dim>
 STRANDLAB_INLINE double pencil_gradient(const Stencil<Dim>& s, int axis, int q, int lane) {
-  if constexpr (Dim == 2) return s.g[0][q][lane];
-  else return axis == 0 ? s.g[0][q % 3][lane] * s.w[1][q / 3][lane] : s.w[0][q % 3][lane] * s.g[1][q / 3][lane];
+  if constexpr (Dim == 2)
+    return s.g[0][q][lane];
+  else
+    return axis == 0 ? s.g[0][q % 3][lane] * s.w[1][q / 3][lane] : s.w[0][q % 3][lane] * s.g[1][q / 3][lane];
 }
 template <int Dim>
 inline constexpr int kPencils = Dim == 2 ? 3 : 9;
@@ -117,8 +123,9 @@ STRANDLAB_INLINE void diagonal(const Pack (&F)[Dim * Dim], Pack (&d)[Dim]) {
   for (int a = 0; a < Dim; ++a) d[a] = F[a * Dim + a];
 }
 
-// The strand's axes in the current state: along = F a0/|F a0|, thickness perpendicular to it (in 3D: also to the material line
-// across), across completes the right-handed frame. F is row-major. axes[k] are the directions 1 = along, 2 = across, 3 = thickness.
+// The strand's axes in the current state: along = F a0/|F a0|, thickness perpendicular to it (in 3D: also to the
+// material line across), across completes the right-handed frame. F is row-major. axes[k] are the directions 1 = along,
+// 2 = across, 3 = thickness.
 STRANDLAB_INLINE void strand_axes(const Pack (&F)[4], Pack (&along)[2]) {
   const Pack s = 1.0 / square_root(F[0] * F[0] + F[2] * F[2]);
   along[0] = F[0] * s;
@@ -159,7 +166,9 @@ STRANDLAB_INLINE void panel_stress(const Pack (&F)[9], const Pack* tau, double v
   for (int k = 0; k < 3; ++k) {
     for (int b = 0; b < 3; ++b) half[k][b] = T[k][0] * e[0][b] + T[k][1] * e[1][b] + T[k][2] * e[2][b];
   }
-  const auto component = [&](int a, int b) { return e[0][a] * half[0][b] + e[1][a] * half[1][b] + e[2][a] * half[2][b]; };
+  const auto component = [&](int a, int b) {
+    return e[0][a] * half[0][b] + e[1][a] * half[1][b] + e[2][a] * half[2][b];
+  };
   s[0] = component(0, 0);
   s[1] = component(1, 1);
   s[2] = component(2, 2);
@@ -184,7 +193,8 @@ struct Rows<3> {
   Pack stress[kBlock];  // {-Vxx, -Vyy, -Vzz, -Vyz, -Vxz, -Vxy, 0, 0}
 };
 
-STRANDLAB_INLINE void prepare(const Pack (&v)[2], const Pack (&F)[4], const Pack* tau, double mass, double volume, Rows<2>& r) {
+STRANDLAB_INLINE void prepare(const Pack (&v)[2], const Pack (&F)[4], const Pack* tau, double mass, double volume,
+                              Rows<2>& r) {
   Pack s[3];
   panel_stress(F, tau, volume, s);
   r.row[0] = splat(mass);
@@ -194,7 +204,8 @@ STRANDLAB_INLINE void prepare(const Pack (&v)[2], const Pack (&F)[4], const Pack
   r.row[6] = r.row[7] = Pack{};
   transpose(r.row);
 }
-STRANDLAB_INLINE void prepare(const Pack (&v)[3], const Pack (&F)[9], const Pack* tau, double mass, double volume, Rows<3>& r) {
+STRANDLAB_INLINE void prepare(const Pack (&v)[3], const Pack (&F)[9], const Pack* tau, double mass, double volume,
+                              Rows<3>& r) {
   Pack s[6];
   panel_stress(F, tau, volume, s);
   r.row[0] = splat(mass);
@@ -206,7 +217,9 @@ STRANDLAB_INLINE void prepare(const Pack (&v)[3], const Pack (&F)[9], const Pack
   transpose(r.stress);
 }
 
-STRANDLAB_INLINE void add(double* record, const Pack& a) { store(record, load(record) + a); }
+STRANDLAB_INLINE void add(double* record, const Pack& a) {
+  store(record, load(record) + a);
+}
 
 STRANDLAB_INLINE void scatter_lane(const Rows<2>& r, const Stencil<2>& s, const Window& window, int l, double* nodes) {
   const Pack zero{};
@@ -233,7 +246,8 @@ STRANDLAB_INLINE void scatter_lane(const Rows<3>& r, const Stencil<3>& s, const 
   pencil_records<3>(window, s, l, record);
   for (int q = 0; q < 9; ++q) {
     const double w = pencil_weight<3>(s, q, l);
-    const Pack by_weight = momentum * w + column_x * pencil_gradient<3>(s, 0, q, l) + column_y * pencil_gradient<3>(s, 1, q, l);
+    const Pack by_weight =
+        momentum * w + column_x * pencil_gradient<3>(s, 0, q, l) + column_y * pencil_gradient<3>(s, 1, q, l);
     const Pack by_gradient = column_z * w;
     double* node = nodes + kRecord * static_cast<long>(record[q]);
     for (int j = 0; j < 3; ++j) add(node + kRecord * j, by_weight * s.w[2][j][l] + by_gradient * s.g[2][j][l]);
@@ -242,8 +256,9 @@ STRANDLAB_INLINE void scatter_lane(const Rows<3>& r, const Stencil<3>& s, const 
 
 // The mirror image of eight particles in platen k: reflected position, velocity relative to the platen, and stress.
 template <int Dim>
-STRANDLAB_INLINE void scatter_mirror(const Pack (&x)[Dim], const Pack (&v)[Dim], const Pack (&F)[Dim * Dim], const Pack (&tau)[6],
-                                     const BodyView<Dim>& body, const Frame<Dim>& frame, int k, int lanes, double* nodes) {
+STRANDLAB_INLINE void scatter_mirror(const Pack (&x)[Dim], const Pack (&v)[Dim], const Pack (&F)[Dim * Dim],
+                                     const Pack (&tau)[6], const BodyView<Dim>& body, const Frame<Dim>& frame, int k,
+                                     int lanes, double* nodes) {
   constexpr int y = Dim - 1;
   const Pack depth = absolute(x[y] - frame.platen[k].position) * frame.inverse_cell[y];
   const Mask close = depth < kMirrorDepth;
@@ -283,8 +298,8 @@ STRANDLAB_INLINE void current_area(const Pack (&F)[9], const Pack (&A)[3], Pack 
 
 // One pack of face points onto the surface records of their face.
 template <int Dim>
-STRANDLAB_INLINE void scatter_surface(const SurfaceView<Dim>& face, int pack, const BodyView<Dim>& body, const Frame<Dim>& frame,
-                                      double* surface) {
+STRANDLAB_INLINE void scatter_surface(const SurfaceView<Dim>& face, int pack, const BodyView<Dim>& body,
+                                      const Frame<Dim>& frame, double* surface) {
   constexpr int kSize = kSurfaceRecord<Dim>;
   Pack x[Dim], F[Dim * Dim], offset[Dim], area[Dim];
   const int* where = face.where + pack * kBlock;
@@ -367,7 +382,8 @@ void scatter(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& fram
     lap(result.ticks[1]);
   }
   for (int f = 0; f < body.faces; ++f) {
-    for (int p = tile.face_begin[f]; p < tile.face_end[f]; ++p) scatter_surface<Dim>(body.face[f], p, body, frame, surface);
+    for (int p = tile.face_begin[f]; p < tile.face_end[f]; ++p)
+      scatter_surface<Dim>(body.face[f], p, body, frame, surface);
   }
   lap(result.ticks[2]);
 }
@@ -381,8 +397,8 @@ STRANDLAB_INLINE double dot(const double* a, const double* b) {
   return s;
 }
 
-// One face of a field at a node: area-weighted outward normal N = W n, and W times the signed distance from the node to the
-// face along it.
+// One face of a field at a node: area-weighted outward normal N = W n, and W times the signed distance from the node to
+// the face along it.
 template <int Dim>
 struct NodeFace {
   const double* N;
@@ -404,17 +420,18 @@ struct Meeting {  // a velocity field at a node where several meet
 template <int Dim>
 struct Pair {
   int a, b;
-  double n[Dim];    // from a to b
-  double gap;       // between the faces, negative where they overlap
-  double target;    // separation velocity that just keeps the faces from crossing
+  double n[Dim];  // from a to b
+  double gap;     // between the faces, negative where they overlap
+  double target;  // separation velocity that just keeps the faces from crossing
   double friction;
-  double normal;    // impulse so far, compression positive
+  double normal;  // impulse so far, compression positive
   double shear[Dim];
-  double reduced;   // mass
+  double reduced;  // mass
 };
 
 template <int Dim>
-STRANDLAB_INLINE void find_faces(const PencilField& field, int row, const double* x, const double* surface, Meeting<Dim>& m) {
+STRANDLAB_INLINE void find_faces(const PencilField& field, int row, const double* x, const double* surface,
+                                 Meeting<Dim>& m) {
   m.faces = 0;
   for (int f = 0; f < field.faces; ++f) {
     if (row < field.face[f].row_lo || row >= field.face[f].row_hi) continue;
@@ -427,8 +444,9 @@ STRANDLAB_INLINE void find_faces(const PencilField& field, int row, const double
   }
 }
 
-// Of all pairs of faces that oppose each other (by more than 120 degrees) the one that is furthest apart separates the bodies.
-// Returns false if there is none or the gap is too wide to close in a step. pair.n is not yet normalised: see finish_pair.
+// Of all pairs of faces that oppose each other (by more than 120 degrees) the one that is furthest apart separates the
+// bodies. Returns false if there is none or the gap is too wide to close in a step. pair.n is not yet normalised: see
+// finish_pair.
 template <int Dim>
 STRANDLAB_INLINE bool find_pair(const Meeting<Dim>& a, const Meeting<Dim>& b, double reach, Pair<Dim>& pair) {
   pair.gap = -1e300;
@@ -471,7 +489,8 @@ STRANDLAB_INLINE void finish_pair(double dt, Pair<Dim>& pair) {
 
 // One pass over the pairs at a node, all from the same velocities: impulses so far are corrected towards
 // [v].n >= target with a compressive impulse, and Coulomb friction. Masses are split among a body's partners
-// (Tonge, Benevolenski & Voroshilov 2012), so that simultaneous corrections do not overshoot. Returns the largest change of velocity.
+// (Tonge, Benevolenski & Voroshilov 2012), so that simultaneous corrections do not overshoot. Returns the largest
+// change of velocity.
 template <int Dim>
 STRANDLAB_INLINE double contact_pass(Meeting<Dim>* m, int fields, Pair<Dim>* pairs, int count) {
   double change[kMaxFields][Dim] = {};
@@ -511,10 +530,11 @@ STRANDLAB_INLINE double contact_pass(Meeting<Dim>* m, int fields, Pair<Dim>* pai
   return __builtin_sqrt(largest);
 }
 
-// The impulses of all pairs at a node, then the velocities of its first `real` fields (images follow them) and the energies lost.
+// The impulses of all pairs at a node, then the velocities of its first `real` fields (images follow them) and the
+// energies lost.
 template <int Dim>
-STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* pairs, int count, const Frame<Dim>& frame,
-                              PencilResult& result) {
+STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* pairs, int count,
+                              const Frame<Dim>& frame, PencilResult& result) {
   for (int i = 0; i < fields; ++i) {
     m[i].inverse_mass = 1 / m[i].record[7];
     m[i].partners = 0;
@@ -556,17 +576,21 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
     }
   }
   for (int i = 0; i < real; ++i) {
+    const double half_mass = 0.5 * m[i].record[7];
     for (int d = 0; d < Dim; ++d) {
+      // book_energies takes all of dv for the forces' doing
+      result.force_change -= half_mass * (m[i].v[d] - m[i].trial[d]) * (m[i].v[d] - m[i].start[d]);
       m[i].record[d] = m[i].v[d];
       m[i].record[Dim + d] += m[i].v[d] - m[i].trial[d];
     }
   }
 }
 
-// The mirror image of a field in platen k. Its tangential motion is reversed too, so that a pair that sticks stops at the wall
-// while one that slides feels only the friction allowed. Returns false where the image has no mass.
+// The mirror image of a field in platen k. Its tangential motion is reversed too, so that a pair that sticks stops at
+// the wall while one that slides feels only the friction allowed. Returns false where the image has no mass.
 template <int Dim>
-STRANDLAB_INLINE bool mirror_meeting(const PencilField& field, int k, int row, const GridView<Dim>& grid, Meeting<Dim>& m) {
+STRANDLAB_INLINE bool mirror_meeting(const PencilField& field, int k, int row, const GridView<Dim>& grid,
+                                     Meeting<Dim>& m) {
   if (row < field.mirror[k].row_lo || row >= field.mirror[k].row_hi) return false;
   m.record = grid.nodes + kRecord * static_cast<long>(field.mirror[k].base + row);
   if (!(m.record[7] > 0)) return false;
@@ -578,10 +602,11 @@ STRANDLAB_INLINE bool mirror_meeting(const PencilField& field, int k, int row, c
   return true;
 }
 
-// Contact of a field with platen k: the pair of the field (a) and its image (b). The gap to the image is twice that to the wall.
+// Contact of a field with platen k: the pair of the field (a) and its image (b). The gap to the image is twice that to
+// the wall.
 template <int Dim>
-STRANDLAB_INLINE bool platen_pair(const Meeting<Dim>& field, const Frame<Dim>& frame, int k, double node_height, double reach,
-                                  Pair<Dim>& pair) {
+STRANDLAB_INLINE bool platen_pair(const Meeting<Dim>& field, const Frame<Dim>& frame, int k, double node_height,
+                                  double reach, Pair<Dim>& pair) {
   const double direction = k == 0 ? -1 : 1;  // from the field to the platen
   pair.gap = 1e300;
   for (int f = 0; f < field.faces; ++f) {
@@ -622,52 +647,35 @@ STRANDLAB_INLINE void advance_nodes(const PencilField::Rows& rows, const bool (&
   }
 }
 
-// Momentum balance at the nodes of a field and of its mirror images on a pencil; tractions first.
+// Momentum balance at the nodes of a field and of its mirror images on a pencil.
 template <int Dim>
 STRANDLAB_INLINE void momentum_balance(const Pencil& pencil, const PencilField& field, const Frame<Dim>& frame,
                                        const GridView<Dim>& grid) {
-  if (grid.traction) {
-    for (int f = 0; f < field.faces; ++f) {
-      const double* t = grid.traction + (static_cast<long>(field.body) * kMaxFaces + f) * Dim;
-      for (int row = field.face[f].row_lo; row < field.face[f].row_hi; ++row) {
-        const double W = grid.surface[kSurfaceRecord<Dim> * static_cast<long>(field.face[f].base + row) + Dim];
-        double* r = grid.nodes + kRecord * static_cast<long>(field.base + row);
-        if (!(W > 0) || !(r[0] > 0)) continue;
-        for (int d = 0; d < Dim; ++d) {
-          r[1 + Dim + d] += t[d] * W;
-        }
-      }
-    }
-  }
   bool on_wall[Dim] = {};
-  for (int a = 0; a < Dim - 1; ++a) on_wall[a] = pencil.index[a] == frame.wall[a][0] || pencil.index[a] == frame.wall[a][1];
+  for (int a = 0; a < Dim - 1; ++a)
+    on_wall[a] = pencil.index[a] == frame.wall[a][0] || pencil.index[a] == frame.wall[a][1];
   advance_nodes<Dim>({field.base, field.row_lo, field.row_hi}, on_wall, 1, frame, grid.nodes);
   for (int k = 0; k < 2; ++k) advance_nodes<Dim>(field.mirror[k], on_wall, -1, frame, grid.nodes);
 }
 
-// Energies of a field's nodes after the update: 1/2 sum m |dv|^2, of which lumping the mass costs a part when the particles take up
-// dv, and the work of gravity and tractions on the mean velocity of the step.
+// Energies of a field's nodes after the update: 1/2 sum m |dv|^2, of which lumping the mass costs a part when the
+// particles take up dv, and the work of gravity on the mean velocity of the step.
 template <int Dim>
 STRANDLAB_INLINE void book_energies(const PencilField& field, const Frame<Dim>& frame, const GridView<Dim>& grid,
                                     PencilResult& result) {
   for (int row = field.row_lo; row < field.row_hi; ++row) {
     const double* r = grid.nodes + kRecord * static_cast<long>(field.base + row);
-    result.kinetic_change += 0.5 * r[7] * dot<Dim>(r + Dim, r + Dim);
-    for (int d = 0; d < Dim; ++d) result.external_work += r[7] * frame.dt * frame.gravity[d] * (r[d] - 0.5 * r[Dim + d]);
-    if (!grid.traction) continue;
-    for (int f = 0; f < field.faces; ++f) {
-      if (row < field.face[f].row_lo || row >= field.face[f].row_hi) continue;
-      const double* t = grid.traction + (static_cast<long>(field.body) * kMaxFaces + f) * Dim;
-      const double W = grid.surface[kSurfaceRecord<Dim> * static_cast<long>(field.face[f].base + row) + Dim];
-      for (int d = 0; d < Dim; ++d) result.external_work += t[d] * W * frame.dt * (r[d] - 0.5 * r[Dim + d]);
-    }
+    const double change = 0.5 * r[7] * dot<Dim>(r + Dim, r + Dim);
+    result.kinetic_change += change;
+    result.force_change += change;
+    for (int d = 0; d < Dim; ++d) result.external_work += r[7] * frame.dt * frame.gravity[d] * r[d];
   }
 }
 
 // Contact at the nodes of one row of a pencil, momentum conserving, independent of the order of the bodies.
 template <int Dim>
-STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, const Frame<Dim>& frame, const GridView<Dim>& grid,
-                                  PencilResult& result) {
+STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, const Frame<Dim>& frame,
+                                  const GridView<Dim>& grid, PencilResult& result) {
   const double cell = frame.cell[Dim - 1], reach = 0.25 * cell;
   const int begin = grid.row_start[pencil.slots + row - pencil.row_lo];
   const int end = grid.row_start[pencil.slots + row - pencil.row_lo + 1];
@@ -728,9 +736,11 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
 }
 
 template <int Dim>
-void update_grid(const Pencil& pencil, const Frame<Dim>& frame, const GridView<Dim>& grid, bool profile, PencilResult& result) {
+void update_grid(const Pencil& pencil, const Frame<Dim>& frame, const GridView<Dim>& grid, bool profile,
+                 PencilResult& result) {
   if (pencil.ghost) return;
-  for (int f = pencil.field_begin; f < pencil.field_end; ++f) momentum_balance<Dim>(pencil, grid.fields[f], frame, grid);
+  for (int f = pencil.field_begin; f < pencil.field_end; ++f)
+    momentum_balance<Dim>(pencil, grid.fields[f], frame, grid);
   Lap lap(profile);
   double x[Dim];
   for (int a = 0; a < Dim - 1; ++a) x[a] = frame.origin[a] + pencil.index[a] * frame.cell[a];
@@ -748,7 +758,8 @@ struct Motion {
   Pack L[Dim * Dim];  // dv_i/dx_j, row-major
 };
 
-STRANDLAB_INLINE void gather_motion(const Stencil<2>& s, const Window& window, const double* nodes, int lanes, Motion<2>& m) {
+STRANDLAB_INLINE void gather_motion(const Stencil<2>& s, const Window& window, const double* nodes, int lanes,
+                                    Motion<2>& m) {
   Pack row[8] = {};
   for (int l = 0; l < lanes; ++l) {
     int record[3];
@@ -779,7 +790,8 @@ STRANDLAB_INLINE void gather_motion(const Stencil<2>& s, const Window& window, c
   for (int k = 0; k < 4; ++k) m.L[k] = row[4 + k];
 }
 
-STRANDLAB_INLINE void gather_motion(const Stencil<3>& s, const Window& window, const double* nodes, int lanes, Motion<3>& m) {
+STRANDLAB_INLINE void gather_motion(const Stencil<3>& s, const Window& window, const double* nodes, int lanes,
+                                    Motion<3>& m) {
   Pack value[8] = {}, gx[8] = {}, gy[8] = {}, gz[8] = {};
   for (int l = 0; l < lanes; ++l) {
     int record[9];
@@ -841,7 +853,9 @@ STRANDLAB_INLINE void advance_F(const Pack (&A)[Dim * Dim], Pack (&F)[Dim * Dim]
   }
 }
 
-STRANDLAB_INLINE Pack determinant(const Pack (&F)[4]) { return F[0] * F[3] - F[1] * F[2]; }
+STRANDLAB_INLINE Pack determinant(const Pack (&F)[4]) {
+  return F[0] * F[3] - F[1] * F[2];
+}
 STRANDLAB_INLINE Pack determinant(const Pack (&F)[9]) {
   return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
 }
@@ -864,7 +878,9 @@ STRANDLAB_INLINE void strain_increment(const Pack (&A)[9], const Pack (&middle)[
   for (int k = 0; k < 3; ++k) {
     for (int i = 0; i < 3; ++i) half[k][i] = A[3 * i] * ax[k][0] + A[3 * i + 1] * ax[k][1] + A[3 * i + 2] * ax[k][2];
   }
-  const auto component = [&](int j, int k) { return ax[j][0] * half[k][0] + ax[j][1] * half[k][1] + ax[j][2] * half[k][2]; };
+  const auto component = [&](int j, int k) {
+    return ax[j][0] * half[k][0] + ax[j][1] * half[k][1] + ax[j][2] * half[k][2];
+  };
   e[0] = component(0, 0);
   e[1] = component(1, 1);
   e[2] = component(2, 2);
@@ -873,10 +889,11 @@ STRANDLAB_INLINE void strain_increment(const Pack (&A)[9], const Pack (&middle)[
   e[5] = component(0, 1) + component(1, 0);
 }
 
-// Elastic trial stress and plastic correction; returns the dissipation per reference volume.
+// Elastic trial stress and plastic correction; returns the dissipation per reference volume and adds dtau : d eps.
 template <int N>
-STRANDLAB_INLINE Pack update_stress(const wood::YieldModes<N>& modes, const Pack (&strain)[6], const Pack& J, double* block,
-                                    int stress, int plastic, long long& yielding, Mask& finite) {
+STRANDLAB_INLINE Pack update_stress(const wood::YieldModes<N>& modes, const Pack (&strain)[6], const Pack& J,
+                                    double* block, int stress, int plastic, Pack& stress_change, long long& yielding,
+                                    Mask& finite) {
   Pack tau[N];
   Pack size{};
   for (int i = 0; i < N; ++i) {
@@ -893,7 +910,11 @@ STRANDLAB_INLINE Pack update_stress(const wood::YieldModes<N>& modes, const Pack
     store(block + (plastic + 1) * kBlock, radius);
     for (int l = 0; l < kBlock; ++l) yielding -= flowing[l];
   }
-  for (int i = 0; i < N; ++i) store(block + (stress + i) * kBlock, tau[i]);
+  stress_change = Pack{};
+  for (int i = 0; i < N; ++i) {
+    stress_change += (tau[i] - load(block + (stress + i) * kBlock)) * strain[i];
+    store(block + (stress + i) * kBlock, tau[i]);
+  }
   return dissipation;
 }
 
@@ -904,7 +925,7 @@ void gather(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame
   Lap lap(profile);
   const int components = body.components;
   const long stride = static_cast<long>(C::count(components)) * kBlock;
-  Pack plastic{}, kinetic{}, drift[Dim] = {};
+  Pack plastic{}, kinetic{}, stress_change{}, drift[Dim] = {};
   for (int b = tile.block_begin; b < tile.block_end; ++b) {
     double* block = body.blocks + b * stride;
     prefetch(block, stride);
@@ -937,15 +958,18 @@ void gather(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame
     strain_increment(A, middle, strain);
     const Pack J = determinant(F);
     Mask ok;
-    const Pack dissipation =
-        components == 4
-            ? update_stress<4>(*body.modes4, strain, J, block, C::stress, C::plastic(4), result.yielding, ok)
-            : update_stress<6>(*body.modes6, strain, J, block, C::stress, C::plastic(6), result.yielding, ok);
+    Pack change_here;
+    const Pack dissipation = components == 4 ? update_stress<4>(*body.modes4, strain, J, block, C::stress,
+                                                                C::plastic(4), change_here, result.yielding, ok)
+                                             : update_stress<6>(*body.modes6, strain, J, block, C::stress,
+                                                                C::plastic(6), change_here, result.yielding, ok);
     plastic += select(real, dissipation, Pack{});
+    stress_change += select(real, change_here, Pack{});
     if (any(~ok) && result.bad == 0) result.bad = b + 1;
     lap(result.ticks[3]);
   }
   result.plastic += body.volume * sum(plastic);
+  result.stress_change += 0.5 * body.volume * sum(stress_change);
   result.kinetic_change += 0.5 * body.mass * sum(kinetic);
   for (int a = 0; a < Dim; ++a) {
     const double d = largest(drift[a]) * frame.inverse_cell[a];

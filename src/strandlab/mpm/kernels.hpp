@@ -86,6 +86,7 @@ struct Tile {
 struct TileResult {
   double plastic;         // mJ dissipated in this step
   double kinetic_change;  // mJ, 1/2 sum m |dv|^2 of the particles
+  double stress_change;   // mJ, 1/2 sum V0 dtau : d eps
   double drift[3];        // largest displacement per axis, cells
   long long yielding;
   int bad;          // block of the first particle that failed + 1, 0: none
@@ -121,7 +122,6 @@ struct GridView {
   const int* row_start;        // per pencil row: range in `slot`
   const unsigned short* slot;  // fields (relative to the pencil's first) whose windows hold that row
   double friction, platen_friction;
-  const double* traction;  // Dim per (body, face), or null
 };
 
 struct PencilResult {
@@ -129,6 +129,7 @@ struct PencilResult {
   double platen_impulse[2];  // N s, pressing positive
   double platen_work;        // mJ
   double kinetic_change;     // mJ, 1/2 sum m |dv|^2 on the grid
+  double force_change;       // mJ, 1/2 dt sum f.dv on the grid, f without the impulses of contact
   double external_work;      // mJ
   double contact_ticks;
   int overflow;  // more than kMaxFields fields at a node
