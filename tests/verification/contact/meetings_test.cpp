@@ -26,6 +26,7 @@ std::vector<mpm::Body<2>> press_three_rows(const std::vector<std::size_t>& order
     }
   }
   std::vector<mpm::Body<2>> shuffled;
+  shuffled.reserve(order.size());
   for (std::size_t i : order) shuffled.push_back(made[i]);
   mpm::Grid<2> grid;
   grid.cell = Vec<2>(kCell, kCell);
@@ -71,6 +72,7 @@ TEST_P(TouchingFaces, KeepNoGapAndNoOverlap) {
   const auto material = elastic_material(1000, 0.3);
   const double thickness = 3 * kCell, length = 8 * kCell, offset = GetParam() * kCell;
   std::vector<mpm::Body<2>> bodies;
+  bodies.reserve(2);
   for (int row = 0; row < 2; ++row) {
     bodies.push_back(block<2>(material, Vec<2>(0, row * thickness), Vec<2>(length, (row + 1) * thickness), kCell / 2));
   }
