@@ -170,7 +170,8 @@ double hand_over(const Trial& trial, Response& r) {
 Response respond(const Trial& trial, const statics::LowerMatrix& matrix, const statics::Supports& supports,
                  const std::vector<double>& rhs, statics::Cholesky& cholesky) {
   constexpr int kLeastSteps = 2, kMostSteps = 10;
-  constexpr double kSettled = 1e-4, kStalled = 0.5;  // tractions change by less than this; no longer fall by this (round-off)
+  constexpr double kSettled = 1e-4,
+                   kStalled = 0.5;  // tractions change by less than this; no longer fall by this (round-off)
   Response r{cholesky.solve(rhs), {}};
   r.excess.assign(trial.model.stiffness->jumps(r.displacement).size(), Vec<2>::Zero());
   double previous = 1;
