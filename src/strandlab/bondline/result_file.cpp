@@ -90,24 +90,31 @@ std::string to_json(const Analysis& analysis, const std::string& input) {
   for (const auto& family : analysis.families) json["comparisons"].push_back(family_json(analysis, family));
   for (const auto& specimen : analysis.specimens)
     json["specimens"].push_back(specimen_json(specimen, analysis.factors));
-  return json.dump(2) + "\n";
+  // A file name may be any bytes.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 double group_compliance(const std::filesystem::path& file, const std::string& group) {
   std::ifstream in(file);
   if (!in) throw InputError(fmt::format("{}: cannot be read", file.string()));
   const Json json = Json::parse(in, nullptr, false);
-  if (!json.is_object() || json.value("format", "") != kFormat || !json.contains("groups"))
-    throw InputError(fmt::format("{}: is not a result of 'strandlab bondline'", file.string()));
-  std::vector<std::string> names;
-  for (const auto& entry : json["groups"]) {
-    names.push_back(entry.value("group", ""));
-    if (names.back() != group) continue;
-    const auto& value = entry["compliance_t_mm_per_MPa"];
-    if (!value.is_number()) throw InputError(fmt::format("{}: group '{}' has no value", file.string(), group));
-    return value.get<double>();
+  const auto not_ours = [&] {
+    return InputError(fmt::format("{}: is not a result of 'strandlab bondline'", file.string()));
+  };
+  try {
+    if (json.at("format") != kFormat) throw not_ours();
+    std::vector<std::string> names;
+    for (const auto& entry : json.at("groups")) {
+      names.push_back(entry.at("group"));
+      if (names.back() != group) continue;
+      const auto& value = entry.at("compliance_t_mm_per_MPa");
+      if (value.is_null()) throw InputError(fmt::format("{}: group '{}' has no value", file.string(), group));
+      return value.get<double>();
+    }
+    throw InputError(fmt::format("{}: has no group '{}'; it has: {}", file.string(), group, fmt::join(names, ", ")));
+  } catch (const Json::exception&) {
+    throw not_ours();
   }
-  throw InputError(fmt::format("{}: has no group '{}'; it has: {}", file.string(), group, fmt::join(names, ", ")));
 }
 
 }  // namespace strandlab::bondline

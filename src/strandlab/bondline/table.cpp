@@ -84,6 +84,46 @@ std::string file_text(const std::filesystem::path& file) {
   return bytes.str();
 }
 
+// Length of the UTF-8 character that starts a text, 0 where there is none.
+std::size_t utf8_length(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  const std::size_t length = first < 0x80                    ? 1
+                             : first >= 0xC2 && first < 0xE0 ? 2
+                             : first >= 0xE0 && first < 0xF0 ? 3
+                             : first >= 0xF0 && first < 0xF5 ? 4
+                                                             : 0;
+  if (length == 0 || length > text.size()) return 0;
+  const auto follows = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+  const bool whole = std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length), follows);
+  const auto second = length > 1 ? static_cast<unsigned char>(text[1]) : 0;
+  const bool overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
+  const bool outside = (first == 0xED && second > 0x9F) || (first == 0xF4 && second > 0x8F);
+  return whole && !overlong && !outside ? length : 0;
+}
+
+// The text itself where it is UTF-8; else taken as Latin-1, which older spreadsheets write.
+std::string as_utf8(std::string_view text) {
+  for (std::string_view rest = text; !rest.empty();) {
+    const auto length = utf8_length(rest);
+    if (length > 0) {
+      rest.remove_prefix(length);
+      continue;
+    }
+    std::string converted;
+    for (char c : text) {
+      const auto byte = static_cast<unsigned char>(c);
+      if (byte < 0x80) {
+        converted += c;
+      } else {
+        converted += static_cast<char>(0xC0U | (byte >> 6U));
+        converted += static_cast<char>(0x80U | (byte & 0x3FU));
+      }
+    }
+    return converted;
+  }
+  return std::string(text);
+}
+
 // What the marks in a number say about the file it stands in.
 enum class Mark { kNone, kPoint, kComma, kThreeDigits };
 
@@ -120,7 +160,7 @@ Table::Table(const std::string& text, const std::string& source, std::vector<Qua
   if (bytes.substr(0, 2) == "\xFF\xFE" || bytes.substr(0, 2) == "\xFE\xFF")
     throw InputError(fmt::format("{}: is UTF-16 text; save it as UTF-8", source_));
   if (bytes.substr(0, 3) == "\xEF\xBB\xBF") bytes.remove_prefix(3);
-  parse(std::string(bytes));
+  parse(as_utf8(bytes));
 }
 
 std::vector<Table::Row> Table::split(const std::string& text, char delimiter) {
@@ -237,7 +277,8 @@ void Table::read_units_row() {
     if (found_[q].column >= static_cast<int>(row.cells.size())) continue;
     const std::string& cell = row.cells[found_[q].column];
     if (is_missing_mark(cell)) continue;
-    if (std::string_view("0123456789-.,").find(bare_number(cell).front()) != std::string_view::npos) return;
+    const std::string number = bare_number(cell);
+    if (!number.empty() && std::string_view("0123456789-.,").find(number.front()) != std::string_view::npos) return;
     units = true;
   }
   if (!units) return;

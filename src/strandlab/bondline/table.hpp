@@ -1,5 +1,6 @@
 // Tables as testing machines and spreadsheets write them: comma, semicolon or tab between cells, decimal point or
-// comma, quoted cells, a row of units, a byte-order mark, any line ending, lines of remarks above the header.
+// comma, quoted cells, a row of units, a byte-order mark, UTF-8 or Latin-1, any line ending, lines of remarks above the
+// header.
 #pragma once
 
 #include <filesystem>

@@ -150,6 +150,9 @@ TEST_F(BondlineFiles, ResultIsReadBackByGroup) {
     EXPECT_NE(std::string(error.what()).find("has no group 'medium'; it has: low, high"), std::string::npos);
   }
   EXPECT_THROW(group_compliance(write("other.json", "{\"groups\": []}"), "low"), InputError);
+  EXPECT_THROW(group_compliance(write("other.json", R"({"format": 3, "groups": [1]})"), "low"), InputError);
+  EXPECT_THROW(group_compliance(write("other.json", R"({"format": "strandlab bondline 1", "groups": [1]})"), "low"),
+               InputError);
   EXPECT_THROW(group_compliance(write("broken.json", "{"), "low"), InputError);
   EXPECT_THROW(group_compliance(folder_ / "none.json", "low"), InputError);
 }

@@ -66,6 +66,16 @@ TEST(Table, ByteOrderMarkAndCarriageReturns) {
   expect_two_specimens(table("id,E1_MPa,t1_mm,k_N_per_mm\ra,9936,0.69,3014\rb,10120.5,0.715,2950.25"));
 }
 
+TEST(Table, Latin1IsReadAsUtf8) {
+  const Table t = table(
+      "id,E1_MPa,t1_\xB5m,k_N_per_mm,Gr\xF6\xDF"
+      "e\na,9936,690,3014,\xE9\n");
+  EXPECT_NEAR(*t.number(0, "t1"), .69, 1e-12);
+  EXPECT_EQ(t.other_columns(), std::vector<std::string>{"Gr\xC3\xB6\xC3\x9F"
+                                                        "e"});
+  EXPECT_EQ(t.other(0, 0), "\xC3\xA9");
+}
+
 TEST(Table, RowOfUnits) {
   expect_two_specimens(table("id;E1;t1;k\n;MPa;mm;N/mm\na;9936;0,69;3014\nb;10120,5;0,715;2950,25\n"));
   expect_two_specimens(table("id,E1,t1,k\n,(GPa),[mm],(kN/mm)\na,9.936,0.69,3.014\nb,10.1205,0.715,2.95025\n"));
