@@ -480,11 +480,16 @@ STRANDLAB_INLINE bool would_cross(const Meeting<Dim>& a, const Meeting<Dim>& b, 
   return reach * reach > pair.gap * pair.gap * dot<Dim>(pair.n, pair.n);
 }
 
+// Part of an overlap that a step pushes back. At a platen the impulses stop the mean motion of the nodes, not the face
+// itself, which would creep through over thousands of steps; a few per cent of so small an overlap a step cost no
+// energy worth the name. Between bodies none: overlaps of ends that met at speed would turn into elastic energy.
+inline constexpr double kPlatenReturn = 0.05;
+
 template <int Dim>
-STRANDLAB_INLINE void finish_pair(double dt, Pair<Dim>& pair) {
+STRANDLAB_INLINE void finish_pair(double dt, double pushed_back, Pair<Dim>& pair) {
   const double inverse = 1 / __builtin_sqrt(dot<Dim>(pair.n, pair.n));
   for (int d = 0; d < Dim; ++d) pair.n[d] *= inverse;
-  pair.target = pair.gap > 0 ? -pair.gap / dt : 0;
+  pair.target = -(pair.gap > 0 ? 1 : pushed_back) * pair.gap / dt;
 }
 
 // One pass over the pairs at a node, all from the same velocities: impulses so far are corrected towards
@@ -540,7 +545,7 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
     m[i].partners = 0;
   }
   for (int p = 0; p < count; ++p) {
-    finish_pair<Dim>(frame.dt, pairs[p]);
+    finish_pair<Dim>(frame.dt, pairs[p].b >= real ? kPlatenReturn : 0.0, pairs[p]);
     ++m[pairs[p].a].partners;
     ++m[pairs[p].b].partners;
     pairs[p].normal = 0;
