@@ -19,7 +19,7 @@ fma_chains(long rounds) {
   double a[kChains];
   for (int i = 0; i < kChains; ++i) a[i] = 1.0 + 1e-3 * i;
   for (long k = 0; k < rounds; ++k) {
-    for (int i = 0; i < kChains; ++i) a[i] = a[i] * 0.999999 + 1e-6;
+    for (double& x : a) x = x * 0.999999 + 1e-6;
   }
   double sum = 0;
   for (double x : a) sum += x;
