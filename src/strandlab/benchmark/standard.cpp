@@ -12,9 +12,10 @@
 namespace strandlab::benchmark {
 namespace {
 
-constexpr int kSteps = 120;        // per measurement
-constexpr double kFastPress = 64;  // m/s, to reach the mid-press state
-constexpr double kSpeed = 16;      // m/s, of the main job
+constexpr int kSteps = 120;                      // per measurement
+constexpr double kFastPress = 64;                // m/s, to reach the mid-press state
+constexpr double kSpeed = 16;                    // m/s, of the main job
+const press::Resolution kUnitCells{3, 1, true};  // 1:1 cells, as the published figures of other codes
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -98,7 +99,7 @@ Panel<2> mid_press(const mat::Mat& mat, int threads) {
   const auto panel = panel_of(mat, true, 6);
   mpm::Options options;
   options.threads = threads;
-  const auto setup = press::setup<2>(panel, {}, mpm::Side::kRoller, options);
+  const auto setup = press::setup<2>(panel, kUnitCells, mpm::Side::kRoller, options);
   press::Schedule schedule;
   schedule.speed_m_s = kFastPress;
   schedule.compactions = {kMidPress};
@@ -167,7 +168,7 @@ std::vector<Result> run(const std::vector<int>& threads, int repeats,
     r.machine = machine_limits(n);
     mpm::Options options;
     options.threads = n;
-    const auto setup = press::setup<2>(elastic, {}, mpm::Side::kRoller, options);
+    const auto setup = press::setup<2>(elastic, kUnitCells, mpm::Side::kRoller, options);
     auto engine = engine_for(elastic, setup, kSpeed);
     r.elastic_ns_per_particle_step = measure(engine, repeats);
     r.bytes_per_particle = static_cast<double>(engine.bytes()) / static_cast<double>(engine.particles());
@@ -175,7 +176,7 @@ std::vector<Result> run(const std::vector<int>& threads, int repeats,
     r.press_ns_per_particle_step = measure(pressing, repeats);
     auto single = engine_for(one_body, setup, kSpeed);
     r.one_body_ns_per_particle_step = measure(single, repeats);
-    auto setup3 = press::setup<3>(crossed, {}, mpm::Side::kRoller, options);
+    auto setup3 = press::setup<3>(crossed, kUnitCells, mpm::Side::kRoller, options);
     auto engine3 = engine_for(crossed, setup3, kSpeed);
     r.elastic_3d_ns_per_particle_step = measure(engine3, std::min(repeats, 3));
     mpm::Timing timing;
