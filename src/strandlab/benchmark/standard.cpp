@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "strandlab/mat/form.hpp"
 #include "strandlab/press/press.hpp"
@@ -122,7 +123,8 @@ Panel<3> crossed_strands() {
     s.row = row;
     s.angle_deg = row % 2 ? 90 : 0;
     s.material = wood::in_strand_axes(kinds(false)[0].material, s.angle_deg);
-    s.points = {static_cast<int>(kSide / kSpacing + 0.5), static_cast<int>(kSide / kSpacing + 0.5), 6};
+    const auto points = static_cast<int>(std::lround(kSide / kSpacing));
+    s.points = {points, points, 6};
     s.spacing = {kSpacing, kSpacing, kSpacing};
     for (int k = 0; k < s.points[2]; ++k) {
       for (int j = 0; j < s.points[1]; ++j) {
