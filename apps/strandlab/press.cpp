@@ -83,6 +83,7 @@ std::vector<Panel<2>> read_panels(const Journey& journey) {
 
 void draw_pictures(const Journey& journey, const std::vector<Panel<2>>& panels) {
   std::vector<const Panel<2>*> all;
+  all.reserve(panels.size());
   for (const auto& panel : panels) all.push_back(&panel);
   for (const auto& [colouring, name] :
        {std::pair{report::Colouring::kGrainAngle, "grain_angle"}, std::pair{report::Colouring::kDensity, "density"}}) {
