@@ -1,7 +1,6 @@
 #include "strandlab/mpm/engine.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -10,6 +9,7 @@
 #include <cmath>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/thread_team.hpp"
 #include "strandlab/mpm/aligned.hpp"
 #include "strandlab/mpm/kernels.hpp"
 #include "strandlab/mpm/windows.hpp"
@@ -103,9 +103,10 @@ struct Engine<Dim>::Impl {
   long long particle_steps = 0;
   std::size_t particle_count = 0;
   const Kernels<Dim>* kernel = nullptr;
+  ThreadTeam team;
 
   Impl(const std::vector<Body<Dim>>& input, const Grid<Dim>& g, const Options& o)
-      : grid(g), options(o), kernel(&kernels<Dim>()) {
+      : grid(g), options(o), kernel(&kernels<Dim>()), team(o.threads) {
     check_grid();
     for (std::size_t b = 0; b < input.size(); ++b) add_body(input[b], static_cast<int>(b));
     colour_tiles();
@@ -690,22 +691,21 @@ struct Engine<Dim>::Impl {
     clear(surface);
     for (std::size_t colour = 0; colour + 1 < colour_begin.size(); ++colour) {
       const int begin = colour_begin[colour], end = colour_begin[colour + 1];
-#pragma omp parallel for schedule(dynamic, 2) num_threads(options.threads) if (options.threads > 1)
-      for (int t = begin; t < end; ++t) {
+      team.for_each(end - begin, 2, [&](int i) {
+        const int t = begin + i;
         kernel->scatter(tiles[t], views[tiles[t].body], f, nodes.data(), surface.data(),
                         bodies[tiles[t].body].lanes.data(), options.profile, tile_results[t]);
-      }
+      });
     }
   }
 
-  void clear(AlignedArray& array) const {
+  void clear(AlignedArray& array) {
     constexpr std::size_t kChunk = 1 << 15;
     const auto chunks = static_cast<int>((array.size() + kChunk - 1) / kChunk);
-#pragma omp parallel for schedule(static) num_threads(options.threads) if (options.threads > 1)
-    for (int c = 0; c < chunks; ++c) {
+    team.for_each(chunks, 1, [&](int c) {
       const std::size_t begin = c * kChunk, end = std::min(array.size(), begin + kChunk);
       std::fill(array.data() + begin, array.data() + end, 0.0);
-    }
+    });
   }
 
   void update_grid(const Frame<Dim>& f) {
@@ -719,11 +719,10 @@ struct Engine<Dim>::Impl {
     view.platen_friction = options.platen_friction;
     const auto count = static_cast<int>(table.pencils.size());
     const double start = options.profile ? ticks() : 0;
-#pragma omp parallel for schedule(dynamic, 8) num_threads(options.threads) if (options.threads > 1)
-    for (int p = 0; p < count; ++p) {
+    team.for_each(count, 8, [&](int p) {
       pencil_results[p] = PencilResult{};
       kernel->update_grid(table.pencils[p], f, view, options.profile, pencil_results[p]);
-    }
+    });
     PencilResult total{};
     for (const auto& r : pencil_results) {
       total.friction += r.friction;
@@ -754,11 +753,10 @@ struct Engine<Dim>::Impl {
 
   void gather(const Frame<Dim>& f) {
     const auto count = static_cast<int>(tiles.size());
-#pragma omp parallel for schedule(dynamic, 2) num_threads(options.threads) if (options.threads > 1)
-    for (int t = 0; t < count; ++t) {
+    team.for_each(count, 2, [&](int t) {
       kernel->gather(tiles[t], views[tiles[t].body], f, nodes.data(), bodies[tiles[t].body].lanes.data(),
                      options.profile, tile_results[t]);
-    }
+    });
     long long yielding = 0;
     std::array<double, 3> moved{};
     for (int t = 0; t < count; ++t) {
