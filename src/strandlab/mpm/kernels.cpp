@@ -471,9 +471,9 @@ STRANDLAB_INLINE bool find_pair(const Meeting<Dim>& a, const Meeting<Dim>& b, do
 
 // Whether the trial velocities would let the faces cross within the step. Needs no normalised normal.
 template <int Dim>
-STRANDLAB_INLINE bool would_cross(const Meeting<Dim>& a, const Meeting<Dim>& b, const Pair<Dim>& pair, double dt) {
+STRANDLAB_INLINE bool would_cross(const double* va, const double* vb, const Pair<Dim>& pair, double dt) {
   double approach = 0;
-  for (int d = 0; d < Dim; ++d) approach += (a.v[d] - b.v[d]) * pair.n[d];
+  for (int d = 0; d < Dim; ++d) approach += (va[d] - vb[d]) * pair.n[d];
   if (!(approach > 0)) return false;
   if (pair.gap <= 0) return true;
   const double reach = approach * dt;
@@ -543,6 +543,12 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
   for (int i = 0; i < fields; ++i) {
     m[i].inverse_mass = 1 / m[i].record[7];
     m[i].partners = 0;
+    const bool image = i >= real;
+    for (int d = 0; d < Dim; ++d) {
+      const double sign = image && d < Dim - 1 ? -1 : 1;  // see has_mirror
+      m[i].trial[d] = m[i].v[d] = sign * m[i].record[d];
+      m[i].start[d] = sign * (m[i].record[d] - m[i].record[Dim + d]);
+    }
   }
   for (int p = 0; p < count; ++p) {
     finish_pair<Dim>(frame.dt, pairs[p].b >= real ? kPlatenReturn : 0.0, pairs[p]);
@@ -591,20 +597,13 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
   }
 }
 
-// The mirror image of a field in platen k. Its tangential motion is reversed too, so that a pair that sticks stops at
-// the wall while one that slides feels only the friction allowed. Returns false where the image has no mass.
+// The mirror image of a field in platen k; false where it has no mass. In contact its tangential motion counts
+// reversed, so that a pair that sticks stops at the wall while one that slides feels only the friction allowed.
 template <int Dim>
-STRANDLAB_INLINE bool mirror_meeting(const PencilField& field, int k, int row, const GridView<Dim>& grid,
-                                     Meeting<Dim>& m) {
+STRANDLAB_INLINE bool has_mirror(const PencilField& field, int k, int row, const GridView<Dim>& grid, Meeting<Dim>& m) {
   if (row < field.mirror[k].row_lo || row >= field.mirror[k].row_hi) return false;
   m.record = grid.nodes + kRecord * static_cast<long>(field.mirror[k].base + row);
-  if (!(m.record[7] > 0)) return false;
-  for (int d = 0; d < Dim; ++d) {
-    const double sign = d == Dim - 1 ? 1 : -1;
-    m.trial[d] = m.v[d] = sign * m.record[d];
-    m.start[d] = sign * (m.record[d] - m.record[Dim + d]);
-  }
-  return true;
+  return m.record[7] > 0;
 }
 
 // Contact of a field with platen k: the pair of the field (a) and its image (b). The gap to the image is twice that to
@@ -708,20 +707,14 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
   if (fields < least) return;
   const int real = fields;
   const bool alone = real == 2 && least == 2;  // the usual case: two bodies, nothing else
-  for (int i = 0; i < real; ++i) {
-    for (int d = 0; d < Dim; ++d) {
-      m[i].trial[d] = m[i].v[d] = m[i].record[d];
-      m[i].start[d] = m[i].record[d] - m[i].record[Dim + d];
-    }
-    find_faces<Dim>(*origin[i], row, x, grid.surface, m[i]);
-  }
+  for (int i = 0; i < real; ++i) find_faces<Dim>(*origin[i], row, x, grid.surface, m[i]);
   Pair<Dim> pairs[kMaxFields * (kMaxFields + 3) / 2];
   int count = 0;
   for (int i = 0; i < real; ++i) {
     for (int j = i + 1; j < real; ++j) {
       Pair<Dim>& pair = pairs[count];
       if (!find_pair<Dim>(m[i], m[j], reach, pair)) continue;
-      if (alone && !would_cross<Dim>(m[i], m[j], pair, frame.dt)) return;
+      if (alone && !would_cross<Dim>(m[i].record, m[j].record, pair, frame.dt)) return;
       pair.a = i;
       pair.b = j;
       pair.friction = grid.friction;
@@ -730,7 +723,7 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
     for (int k = 0; k < 2; ++k) {
       Pair<Dim>& pair = pairs[count];
       if (!platen[k] || !platen_pair<Dim>(m[i], frame, k, x[Dim - 1], reach, pair)) continue;
-      if (!mirror_meeting<Dim>(*origin[i], k, row, grid, m[fields])) continue;
+      if (!has_mirror<Dim>(*origin[i], k, row, grid, m[fields])) continue;
       pair.a = i;
       pair.b = fields++;
       pair.friction = grid.platen_friction;
