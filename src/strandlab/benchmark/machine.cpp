@@ -1,9 +1,11 @@
 #include "strandlab/benchmark/machine.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
+#include <chrono>
+#include <numeric>
 #include <vector>
+
+#include "strandlab/core/thread_team.hpp"
 
 namespace strandlab::benchmark {
 namespace {
@@ -26,32 +28,38 @@ fma_chains(long rounds) {
   return sum;
 }
 
-double fma_gflops(int threads) {
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double fma_gflops(ThreadTeam& team) {
   constexpr long kRounds = 2000000;
   constexpr double kFlops = 2.0 * 128 * kRounds;
+  const int threads = team.threads();
+  std::vector<double> sums(static_cast<std::size_t>(threads));
   double best = 0;
   for (int trial = 0; trial < 3; ++trial) {
-    double check = 0;
-    const double start = omp_get_wtime();
-#pragma omp parallel for num_threads(threads) reduction(+ : check) schedule(static, 1)
-    for (int t = 0; t < threads; ++t) check += fma_chains(kRounds + (t < 0));
-    const double seconds = omp_get_wtime() - start;
-    if (check > 0) best = std::max(best, threads * kFlops / seconds / 1e9);
+    const double start = seconds();
+    team.for_each(threads, 1, [&](int t) { sums[static_cast<std::size_t>(t)] = fma_chains(kRounds); });
+    const double gflops = threads * kFlops / (seconds() - start) / 1e9;
+    if (std::accumulate(sums.begin(), sums.end(), 0.0) > 0) best = std::max(best, gflops);  // the sums are used
   }
   return best;
 }
 
-double triad_gb_s(int threads) {
+double triad_gb_s(ThreadTeam& team) {
   constexpr long kSize = 8L << 20;  // 64 MB an array
+  constexpr int kParts = 64;
   std::vector<double> a(kSize), b(kSize, 1.0), c(kSize, 2.0);
   double best = 0;
   for (int trial = 0; trial < 6; ++trial) {
-    const double start = omp_get_wtime();
-#pragma omp parallel for num_threads(threads) schedule(static)
-    for (long i = 0; i < kSize; ++i) a[i] = b[i] + 0.5 * c[i];
-    const double seconds = omp_get_wtime() - start;
+    const double start = seconds();
+    team.for_each(kParts, 1, [&](int part) {
+      const long begin = kSize / kParts * part;
+      for (long i = begin; i < begin + kSize / kParts; ++i) a[i] = b[i] + 0.5 * c[i];
+    });
+    best = std::max(best, 3.0 * kSize * sizeof(double) / (seconds() - start) / 1e9);
     std::swap(a, b);
-    best = std::max(best, 3.0 * kSize * sizeof(double) / seconds / 1e9);
   }
   return best;
 }
@@ -59,7 +67,8 @@ double triad_gb_s(int threads) {
 }  // namespace
 
 MachineLimits machine_limits(int threads) {
-  return {fma_gflops(threads), triad_gb_s(threads)};
+  ThreadTeam team(threads);
+  return {fma_gflops(team), triad_gb_s(team)};
 }
 
 }  // namespace strandlab::benchmark

@@ -14,8 +14,8 @@ namespace strandlab::io {
 namespace {
 
 // Costs as measured on the reference machine (docs/performance.md).
-constexpr double kNsPerParticleStep = 60;         // one thread, mean over a pressing to 40 %
-constexpr double kSpeedUpPerThread = 0.8;         // of each further thread
+constexpr double kNsPerParticleStep = 80;         // one thread, mean over a pressing to 40 %
+constexpr double kSpeedUpPerThread = 0.7;         // of each further thread
 constexpr double kBytesPerParticle = 700;         // of a pressing, grid included
 constexpr double kStoredBytesPerParticle = 600;   // of one state: HDF5 and ParaView
 constexpr double kSolveSecondsPerElement = 4e-6;  // of a virtual test, per factorisation and element

@@ -36,7 +36,7 @@ std::vector<std::string> results_of(Step step) {
     return {"press.csv", "morphology.csv", "histograms.csv", "checkpoint.h5", "checkpoint.previous.h5",
             "panels",    "paraview",       "pictures"};
   }
-  return {"moduli.csv", "plots"};
+  return {"moduli.csv", "theory.csv", "plots"};
 }
 
 bool is_temporary(const fs::path& file) {
