@@ -12,6 +12,8 @@
 #include "strandlab/report/plots.hpp"
 #include "strandlab/report/result_tables.hpp"
 #include "strandlab/vtest/vtest.hpp"
+#include "theory_curves.hpp"
+#include "theory_rows.hpp"
 
 namespace strandlab::app {
 namespace {
@@ -56,14 +58,20 @@ std::vector<report::PanelModulus> moduli_of(const Json& states) {
   return moduli;
 }
 
+// Modulus against glue and against compaction for each test, with the closed-form models over them, and these models'
+// numbers.
 void write_plots(const Journey& journey, const std::vector<report::PanelModulus>& moduli, Console& console) {
   const auto plots = journey.folder.file("plots");
   fs::create_directories(plots);
+  const auto theory = theory_moduli(theory_rows(journey.c), journey.c.layer_thickness_mm, moduli);
+  theory_table(theory).write(journey.folder.file("theory.csv"));
   for (const auto kind : journey.c.test.kinds) {
     const std::string test = vtest::name(kind);
     for (const auto& warning :
-         {report::plot_modulus_against_compliance(moduli, test, plots / (test + "_against_compliance.png")),
-          report::plot_modulus_against_compaction(moduli, test, plots / (test + "_against_compaction.png"))}) {
+         {report::plot_modulus_against_compliance(moduli, test, plots / (test + "_against_compliance.png"),
+                                                  theory_against_compliance(theory, test)),
+          report::plot_modulus_against_compaction(moduli, test, plots / (test + "_against_compaction.png"),
+                                                  theory_against_compaction(theory, test))}) {
       if (warning) console.warn(*warning);
     }
   }

@@ -119,7 +119,8 @@ def hdf5_files():
     record["steps"]["press"]["finished"] = False  # as if it had been killed
     del record["steps"]["test"]
     pathlib.Path("pressed/run.json").write_text(json.dumps(record), encoding="utf-8")
-    pathlib.Path("pressed/moduli.csv").unlink()
+    for name in ("moduli.csv", "theory.csv"):
+        pathlib.Path("pressed", name).unlink()
     shutil.rmtree("pressed/plots")
     for name in ("checkpoint.h5", "checkpoint.previous.h5"):
         pathlib.Path("pressed", name).write_bytes(whole[:1000])

@@ -106,6 +106,15 @@ def run_folder():
     # A surface strand (E_L = 9936 MPa) over a gapped core strand: between half of its modulus and all of it.
     tension = [float(m["modulus_MPa"]) for m in moduli if m["test"] == "tension"]
     check(all(2000 < e < 12000 for e in tension), f"tension moduli {tension}")
+    theory = read_csv("out/theory.csv")
+    check(list(theory[0]) == ["compaction", "model", "test", "compliance_t_mm_per_MPa", "modulus_MPa"], f"theory.csv: {theory[0]}")
+    # Per compaction and compliance: tension by two models, bending by one. Surface row 9936 MPa with gaps of 15 between strands
+    # of 150 mm, core row 427 MPa with gaps of 1 between 2 mm: their mean, over 1 - C, both stiffened by plane strain: nu_TL = .017.
+    check(len(theory) == 3 * 2 * 3, f"theory.csv has a line per modulus and model: {len(theory)}")
+    for row in theory:
+        if row["model"] == "rule of mixtures":
+            expected = (9936 * 150 / 165 + 427 * 2 / 3) / 2 / (1 - float(row["compaction"])) / (1 - 0.017**2 * 9936 / 427)
+            check(row["test"] == "tension" and abs(float(row["modulus_MPa"]) / expected - 1) < 1e-9, f"{row}, expected {expected}")
     record = json.loads(pathlib.Path("out/run.json").read_text(encoding="utf-8"))
     for key in ("strandlab", "git", "seed", "machine"):
         check(key in record, f"run.json has {key}")

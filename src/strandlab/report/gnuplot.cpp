@@ -51,8 +51,15 @@ std::string style_of(CurveStyle style, std::size_t curve) {
   return fmt::format("with linespoints pt {} ps 1.5", kPoints[curve % kPoints.size()]);
 }
 
-std::string data_block(const Curve& curve, std::size_t index) {
-  std::string block = fmt::format("$curve{} << END\n", index);
+// `dashes` counts the names of references.
+std::string reference_style(const Curve& reference, std::size_t dashes) {
+  constexpr std::array kDashes{2, 4, 3, 5};  // gnuplot's dash types from long dashes to dots and dashes
+  if (reference.x.size() == 1) return fmt::format("with points pt {} ps 2 lw 2", 1 + dashes % 2);
+  return fmt::format("with lines dt {} lw 2", kDashes[dashes % kDashes.size()]);
+}
+
+std::string data_block(const Curve& curve, const std::string& name) {
+  std::string block = fmt::format("${} << END\n", name);
   for (std::size_t i = 0; i < curve.x.size(); ++i) {
     if (std::isfinite(curve.x[i]) && std::isfinite(curve.y[i])) block += fmt::format("{} {}\n", curve.x[i], curve.y[i]);
   }
@@ -151,7 +158,7 @@ std::string gnuplot_script(const Plot& plot) {
       "set title {}\nset xlabel {}\nset ylabel {}\nset border 3 lw 1.5\nset tics nomirror out\n"
       "set grid lt 1 lc rgb \"#e0e0e0\" lw 1\nset xrange [{}:{}]\nset yrange [0:*]\n",
       quoted(plot.title), quoted(plot.x_label), quoted(plot.y_label), plot.x_low, plot.x_high);
-  if (plot.curves.size() > 1) {
+  if (plot.curves.size() + plot.references.size() > 1) {
     script += fmt::format("set key outside right top vertical title {} left Left reverse samplen 2\n",
                           quoted(plot.key_title));
   } else {
@@ -159,10 +166,18 @@ std::string gnuplot_script(const Plot& plot) {
   }
   std::string curves;
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
-    script += data_block(plot.curves[i], i);
+    script += data_block(plot.curves[i], fmt::format("curve{}", i));
     if (i > 0) curves += ", ";
     curves += fmt::format("$curve{} using 1:2 {} lw 3 lc rgb \"{}\" title {}", i, style_of(plot.style, i),
                           colour(i, plot.curves.size()), quoted(plot.curves[i].name));
+  }
+  std::size_t names = 0;
+  for (std::size_t i = 0; i < plot.references.size(); ++i) {
+    const Curve& reference = plot.references[i];
+    if (i > 0 && !reference.name.empty()) ++names;
+    script += data_block(reference, fmt::format("reference{}", i));
+    curves += fmt::format(", $reference{} using 1:2 {} lc rgb \"#303030\" title {}", i,
+                          reference_style(reference, names), quoted(reference.name));
   }
   return script + "plot " + curves + "\n";
 }

@@ -21,6 +21,9 @@ struct Plot {
   CurveStyle style = CurveStyle::kLines;
   double x_low = 0, x_high = 1;  // ends of the axis; y starts at 0
   std::vector<Curve> curves;
+  // What the curves are compared with: dashed dark lines over them, a mark where there is only one point. An empty name
+  // continues the reference before it: the same dashes, no further entry in the key.
+  std::vector<Curve> references;
 };
 
 // The gnuplot program text of a plot that prints a PNG to its standard output. Curves keep their colour from the first
@@ -33,7 +36,7 @@ std::string gnuplot_script(const Plot& plot);
 std::optional<std::string> draw_script(const std::string& script, const std::filesystem::path& png,
                                        const std::string& program = "gnuplot");
 
-// The same for a plot; nothing is drawn, and the sentence says so, where it has no points.
+// The same for a plot; nothing is drawn, and the sentence says so, where its curves have no points.
 std::optional<std::string> draw(const Plot& plot, const std::filesystem::path& png,
                                 const std::string& program = "gnuplot");
 

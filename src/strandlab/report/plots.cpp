@@ -70,7 +70,7 @@ Curve outline(const Histogram& h, const std::string& name) {
 
 Warning plot_histograms(const std::vector<Morphology>& states, Histogram Morphology::*quantity,
                         const std::string& title, const std::string& x_label, const std::filesystem::path& png) {
-  Plot plot{title, x_label, "share of the wood, %", "compaction", CurveStyle::kSteps, 0, 1, {}};
+  Plot plot{title, x_label, "share of the wood, %", "compaction", CurveStyle::kSteps, 0, 1, {}, {}};
   for (const auto& state : states) {
     const Histogram& h = state.*quantity;
     // A mat as formed is one bar that would dwarf the rest.
@@ -85,7 +85,8 @@ Warning plot_histograms(const std::vector<Morphology>& states, Histogram Morphol
 }  // namespace
 
 Warning plot_stress(const std::vector<press::Record>& records, const std::filesystem::path& png) {
-  Plot plot{"Pressing", "compaction, %", "stress, mean of both platens, MPa", "", CurveStyle::kLines, 0, 1, {Curve{}}};
+  Plot plot{"Pressing", "compaction, %", "stress, mean of both platens, MPa", "", CurveStyle::kLines, 0, 1, {Curve{}},
+            {}};
   for (const auto& record : records) {
     plot.curves[0].x.push_back(100 * record.compaction);
     plot.curves[0].y.push_back(record.stress_MPa);
@@ -95,24 +96,26 @@ Warning plot_stress(const std::vector<press::Record>& records, const std::filesy
 }
 
 Warning plot_modulus_against_compliance(const std::vector<PanelModulus>& moduli, const std::string& test,
-                                        const std::filesystem::path& png) {
+                                        const std::filesystem::path& png, const std::vector<Curve>& references) {
   std::map<double, std::map<double, double>> curves;
   for (const auto& m : moduli) {
     if (m.test == test) curves[rounded_percent(m.compaction)][m.compliance_t_mm_per_MPa] = m.modulus_MPa;
   }
-  Plot plot{title_of(test), "1/Dₜ, mm/MPa", "modulus, MPa", "compaction", CurveStyle::kLinesAndPoints, 0, 1, {}};
+  Plot plot{title_of(test), "1/Dₜ, mm/MPa", "modulus, MPa", "compaction", CurveStyle::kLinesAndPoints, 0, 1, {},
+            references};
   for (const auto& [compaction, points] : curves) plot.curves.push_back(curve_of(percent(compaction / 100), points));
   fit_axis(plot, std::nullopt);
   return draw(plot, png);
 }
 
 Warning plot_modulus_against_compaction(const std::vector<PanelModulus>& moduli, const std::string& test,
-                                        const std::filesystem::path& png) {
+                                        const std::filesystem::path& png, const std::vector<Curve>& references) {
   std::map<double, std::map<double, double>> curves;
   for (const auto& m : moduli) {
     if (m.test == test) curves[m.compliance_t_mm_per_MPa][1 / (1 - m.compaction)] = m.modulus_MPa;
   }
-  Plot plot{title_of(test), "1/(1 - C)", "modulus, MPa", "1/Dₜ, mm/MPa", CurveStyle::kLinesAndPoints, 0, 1, {}};
+  Plot plot{title_of(test), "1/(1 - C)", "modulus, MPa", "1/Dₜ, mm/MPa", CurveStyle::kLinesAndPoints, 0, 1, {},
+            references};
   for (const auto& [compliance, points] : curves)
     plot.curves.push_back(curve_of(fmt::format("{}", compliance), points));
   fit_axis(plot, std::nullopt);

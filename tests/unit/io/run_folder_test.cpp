@@ -28,7 +28,7 @@ std::string refusal(const std::filesystem::path& folder, const Case& c, double b
 void make_finished(const std::filesystem::path& folder, const Case& c) {
   RunFolder run(folder, c, Step::kMat, false, kSmall);
   std::filesystem::create_directory(run.file("panels"));
-  for (const auto* name : {"mat.json", "press.csv", "panels/panel_0.h5", "moduli.csv", "notes.txt"})
+  for (const auto* name : {"mat.json", "press.csv", "panels/panel_0.h5", "moduli.csv", "theory.csv", "notes.txt"})
     put(run.file(name), "x");
   for (const auto step : {Step::kMat, Step::kPress, Step::kTest}) run.set_finished(step);
 }
@@ -70,6 +70,7 @@ TEST(RunFolder, ForceStartsAgainFromTheFirstStepThatDiffers) {
     EXPECT_TRUE(run.finished(Step::kPress));
     EXPECT_FALSE(run.finished(Step::kTest));
     EXPECT_FALSE(std::filesystem::exists(run.file("moduli.csv")));
+    EXPECT_FALSE(std::filesystem::exists(run.file("theory.csv")));
     EXPECT_TRUE(std::filesystem::exists(run.file("panels/panel_0.h5")));
   }
   const RunFolder run(folder / "run", with("press.speed_m_s=8"), Step::kTest, true, kSmall);

@@ -41,15 +41,18 @@ TEST(Plots, ArePngFiles) {
   expect_picture(plot_stress(records, folder / "stress.png"), folder / "stress.png");
   expect_picture(plot_modulus_against_compliance(moduli(), "tension", folder / "d.png"), folder / "d.png");
   expect_picture(plot_modulus_against_compaction(moduli(), "tension", folder / "c.png"), folder / "c.png");
+  const Curve reference{"rule of mixtures", {1, 1.6}, {7000, 11200}}, one_point{"shear-lag", {1}, {7100}};
+  expect_picture(plot_modulus_against_compaction(moduli(), "tension", folder / "r.png", {reference, one_point}),
+                 folder / "r.png");
   auto panel = test::reference_panel("osb_s1");
   test::undulate(panel, 0.2, 12);
   expect_picture(plot_grain_angles({morphology(panel)}, folder / "a.png"), folder / "a.png");
   expect_picture(plot_thickness_strains({morphology(panel)}, folder / "t.png"), folder / "t.png");
-  EXPECT_EQ(folder.files(), 5U);  // no scripts are left
+  EXPECT_EQ(folder.files(), 6U);  // no scripts are left
 }
 
 TEST(Plots, ScriptHoldsTheNumbersAndTheNames) {
-  Plot plot{"A \"title\"", "x, mm", "y, MPa", "compaction", CurveStyle::kLinesAndPoints, 0, 2, {}};
+  Plot plot{"A \"title\"", "x, mm", "y, MPa", "compaction", CurveStyle::kLinesAndPoints, 0, 2, {}, {}};
   plot.curves = {{"0 %", {0, 1.5}, {3, 4.25}}, {"10 %", {0, 1.5}, {5, 6}}};
   const std::string script = gnuplot_script(plot);
   for (const char* part : {"set title \"A \\\"title\\\"\"", "set xlabel \"x, mm\"", "set xrange [0:2]", "1.5 4.25\n",
@@ -58,9 +61,34 @@ TEST(Plots, ScriptHoldsTheNumbersAndTheNames) {
   }
 }
 
+TEST(Plots, ReferencesAreDashedLinesOverTheCurvesWithOneKeyEntryPerName) {
+  Plot plot{"", "x", "y", "compaction", CurveStyle::kLinesAndPoints, 0, 2, {{"0 %", {0, 1.5}, {3, 4.25}}}, {}};
+  EXPECT_NE(gnuplot_script(plot).find("unset key"), std::string::npos);
+  plot.references = {{"rule of mixtures", {0, 1.5}, {7, 7.5}}, {"", {0, 1.5}, {8, 8.5}}, {"shear-lag", {0.5}, {6.25}}};
+  const std::string script = gnuplot_script(plot);
+  EXPECT_EQ(script.find("unset key"), std::string::npos);
+  for (const char* part : {"$reference0 << END\n0 7\n1.5 7.5\nEND\n", "$reference1 << END\n0 8\n1.5 8.5\nEND\n",
+                           "$reference2 << END\n0.5 6.25\nEND\n",
+                           "$reference0 using 1:2 with lines dt 2 lw 2 lc rgb \"#303030\" title \"rule of mixtures\"",
+                           "$reference1 using 1:2 with lines dt 2 lw 2 lc rgb \"#303030\" title \"\"",
+                           // A line of one point would not be seen.
+                           "$reference2 using 1:2 with points pt 2 ps 2 lw 2 lc rgb \"#303030\" title \"shear-lag\""}) {
+    EXPECT_NE(script.find(part), std::string::npos) << part << "\n" << script;
+  }
+  EXPECT_LT(script.find("$curve0 using"), script.find("$reference0 using"));  // later is drawn over
+}
+
+TEST(Plots, ReferencesAloneAreNoResult) {
+  const TemporaryFolder folder;
+  const auto warning =
+      plot_modulus_against_compliance({}, "tension", folder / "a.png", {{"rule of mixtures", {0, 1}, {7000, 7000}}});
+  ASSERT_TRUE(warning.has_value());
+  EXPECT_NE(warning->find("nothing to plot"), std::string::npos);
+}
+
 TEST(Plots, WithoutGnuplotTheRunGoesOnAndSaysSo) {
   const TemporaryFolder folder;
-  const Plot plot{"", "", "", "", CurveStyle::kLines, 0, 1, {{"", {0, 1}, {0, 1}}}};
+  const Plot plot{"", "", "", "", CurveStyle::kLines, 0, 1, {{"", {0, 1}, {0, 1}}}, {}};
   const auto warning = draw(plot, folder / "a.png", "no_such_gnuplot");
   ASSERT_TRUE(warning.has_value());
   EXPECT_EQ(*warning,
@@ -72,7 +100,7 @@ TEST(Plots, WithoutGnuplotTheRunGoesOnAndSaysSo) {
 
 TEST(Plots, FailingGnuplotIsReported) {
   const TemporaryFolder folder;
-  const Plot plot{"", "", "", "", CurveStyle::kLines, 0, 1, {{"", {0, 1}, {0, 1}}}};
+  const Plot plot{"", "", "", "", CurveStyle::kLines, 0, 1, {{"", {0, 1}, {0, 1}}}, {}};
   const auto warning = draw(plot, folder / "a.png", "false");
   ASSERT_TRUE(warning.has_value());
   EXPECT_NE(warning->find("false failed"), std::string::npos);

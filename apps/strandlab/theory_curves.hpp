@@ -1,0 +1,38 @@
+// The closed-form models at the compactions and glue compliances of virtual tests, to compare the two.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "strandlab/io/csv.hpp"
+#include "strandlab/report/gnuplot.hpp"
+#include "strandlab/report/result_tables.hpp"
+#include "strandlab/theory/models.hpp"
+
+namespace strandlab::app {
+
+// A model's value for a test, in the row of theory.csv and the key of the plots.
+struct TheoryModulus {
+  double compaction = 0;
+  std::string model;                   // "rule of mixtures", "laminated beam", "shear-lag"
+  std::string test;                    // as in PanelModulus
+  double compliance_t_mm_per_MPa = 0;  // 1/D_t; only the shear-lag model depends on it
+  double modulus_MPa = 0;
+};
+
+// For each simulated modulus those of the models: tension by rule of mixtures and, where rows along the panel have gaps
+// that strands bridge through glue, by shear-lag; bending as a laminated beam. Rows off the grain are held in plane
+// strain, as the simulated ones are. Throws as the models.
+std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows, double row_thickness_mm,
+                                         const std::vector<report::PanelModulus>& moduli);
+
+// compaction, model, test, compliance_t_mm_per_MPa, modulus_MPa; one row per value.
+io::CsvTable theory_table(const std::vector<TheoryModulus>& moduli);
+
+// Reference curves of a test for report::plot_modulus_against_compliance: one per model and compaction, named once per
+// model.
+std::vector<report::Curve> theory_against_compliance(const std::vector<TheoryModulus>& moduli, const std::string& test);
+// The same for report::plot_modulus_against_compaction, without the models that depend on the glue: one per model.
+std::vector<report::Curve> theory_against_compaction(const std::vector<TheoryModulus>& moduli, const std::string& test);
+
+}  // namespace strandlab::app
