@@ -90,6 +90,11 @@ struct Engine<Dim>::Impl {
   AlignedArray nodes, surface, filtered;
   std::vector<double> tractions;
   bool has_tractions = false;
+  struct SpringData {
+    Spring<Dim> spring;
+    Vec<Dim> jump = Vec<Dim>::Zero();  // mm, [u]
+  };
+  std::vector<SpringData> springs;
   bool has_platens = false;
   Vec<Dim> gravity = Vec<Dim>::Zero();
   EngineState state;
@@ -626,10 +631,12 @@ struct Engine<Dim>::Impl {
     const Frame<Dim> f = frame();
     scatter(f);
     apply_tractions(f);
+    apply_springs(f);
     fold(f);
     update_grid(f);
     unfold(f);
     book_tractions(f);
+    stretch_springs(f);
     gather(f);
     if (options.filter_interval > 0 && (state.step + 1) % options.filter_interval == 0) filter(f);
     advance(f);
@@ -884,6 +891,112 @@ struct Engine<Dim>::Impl {
     });
   }
 
+  // ------------------------------------------------------------------------------------------------ springs
+
+  void set_springs(const std::vector<Spring<Dim>>& given) {
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      const auto& s = given[i];
+      for (const auto* end : {&s.a, &s.b}) {
+        if (end->body < 0 || end->body >= static_cast<int>(bodies.size()))
+          throw InputError(fmt::format("spring {}: no body {}; there are {}", i, end->body, bodies.size()));
+        const auto particles = bodies[end->body].where.size();
+        if (end->particle < 0 || end->particle >= static_cast<int>(particles)) {
+          throw InputError(fmt::format("spring {}: no particle {} in body {}, which has {}", i, end->particle,
+                                       end->body, particles));
+        }
+      }
+      if (!(std::abs(s.normal.norm() - 1) < 1e-6))
+        throw InputError(fmt::format("spring {}: its normal has length {}; it must be 1", i, s.normal.norm()));
+      if (!(s.area >= 0 && s.stiffness_t >= 0 && s.stiffness_n >= 0)) {
+        throw InputError(fmt::format("spring {}: area {}, stiffnesses {} and {}; none may be negative", i, s.area,
+                                     s.stiffness_t, s.stiffness_n));
+      }
+    }
+    springs.clear();
+    for (const auto& s : given) springs.push_back({s, Vec<Dim>::Zero()});
+  }
+
+  static Vec<Dim> spring_traction(const SpringData& s) {  // MPa, on body a
+    const double opening = s.jump.dot(s.spring.normal);
+    return s.spring.stiffness_t * s.jump + (s.spring.stiffness_n - s.spring.stiffness_t) * opening * s.spring.normal;
+  }
+
+  // Nodes that a spring's end hangs on: grid functions at the point itself. A sheared particle's corner may lie outside
+  // the upright domain that its mass is spread over, perhaps by a node of no mass: the end stays within that domain.
+  template <class Visit>  // visit(record, weight)
+  void each_spring_node(const typename Spring<Dim>::End& end, const Frame<Dim>& f, Visit visit) const {
+    const double* d = bodies[end.body].data.data() + bodies[end.body].where[end.particle];
+    std::array<int, Dim> node;
+    std::array<double, Dim> part;
+    for (int a = 0; a < Dim; ++a) {
+      double ride = 0;
+      for (int b = 0; b < Dim; ++b) ride += d[(C::F + a * Dim + b) * kBlock] * end.offset[b];
+      const double reach = 0.5 * bodies[end.body].spacing[a] * std::abs(d[(C::F + a * Dim + a) * kBlock]);
+      const double x = d[(C::x + a) * kBlock] + std::clamp(ride, -reach, reach);
+      const double xi = (x - f.origin[a]) * f.inverse_cell[a];
+      node[a] = static_cast<int>(std::floor(xi));
+      part[a] = xi - node[a];
+      if (part[a] > 1 - 1e-9) {  // a point on a grid line acts on that line alone
+        ++node[a];
+        part[a] = 0;
+      } else if (part[a] < 1e-9) {
+        part[a] = 0;
+      }
+    }
+    const WindowStore& w = windows[end.body].field;
+    for (int q = 0; q < (1 << Dim); ++q) {
+      double weight = 1;
+      for (int a = 0; a < Dim; ++a) weight *= (q >> a) & 1 ? part[a] : 1 - part[a];
+      if (!(weight > 0)) continue;
+      const int column = node[0] + (q & 1) - w.window.first[0];
+      const int across = Dim == 2 ? 0 : node[Dim - 2] + ((q >> (Dim - 2)) & 1) - w.window.first[1];
+      const int row = node[Dim - 1] + ((q >> (Dim - 1)) & 1);
+      visit(static_cast<std::size_t>(w.base[across * w.window.count[0] + column] + row) * kRecord, weight);
+    }
+  }
+
+  void apply_springs(const Frame<Dim>& f) {
+    for (const auto& s : springs) {
+      const Vec<Dim> on_a = s.spring.area * spring_traction(s);
+      const auto pull = [&](const auto& end, double sign) {
+        each_spring_node(end, f, [&](std::size_t node, double w) {
+          for (int a = 0; a < Dim; ++a) nodes[node + 1 + Dim + a] += sign * w * on_a[a];
+        });
+      };
+      pull(s.spring.a, 1);
+      pull(s.spring.b, -1);
+    }
+  }
+
+  // By the grid's displacements, to which their forces are conjugate.
+  void stretch_springs(const Frame<Dim>& f) {
+    for (auto& s : springs) {
+      const auto move = [&](const auto& end, double sign) {
+        each_spring_node(end, f, [&](std::size_t node, double w) {
+          for (int a = 0; a < Dim; ++a) s.jump[a] += sign * w * f.dt * nodes[node + a];
+        });
+      };
+      move(s.spring.b, 1);
+      move(s.spring.a, -1);
+    }
+  }
+
+  double spring_energy() const {
+    double sum = 0;
+    for (const auto& s : springs) sum += 0.5 * s.spring.area * spring_traction(s).dot(s.jump);
+    return sum;
+  }
+
+  void scale_velocities(double factor) {
+    for (auto& body : bodies) {
+      const std::size_t size = static_cast<std::size_t>(C::count(body.components)) * kBlock;
+      for (std::size_t block = 0; block < body.data.size(); block += size) {
+        double* v = body.data.data() + block + C::v * kBlock;
+        for (int i = 0; i < Dim * kBlock; ++i) v[i] *= factor;
+      }
+    }
+  }
+
   // ------------------------------------------------------------------------------------------------ velocity filter
 
   PointStencil<Dim> stencil_at(const BodyData& body, const double* d, const Vec<Dim>& x, const Frame<Dim>& f) const {
@@ -1081,6 +1194,14 @@ void Engine<Dim>::set_traction(int body, int face, const Vec<Dim>& traction) {
   impl_->set_traction(static_cast<std::size_t>(body), static_cast<std::size_t>(face), traction);
 }
 template <int Dim>
+void Engine<Dim>::set_springs(const std::vector<Spring<Dim>>& springs) {
+  impl_->set_springs(springs);
+}
+template <int Dim>
+void Engine<Dim>::scale_velocities(double factor) {
+  impl_->scale_velocities(factor);
+}
+template <int Dim>
 void Engine<Dim>::resume(const EngineState& state) {
   impl_->state = state;
   impl_->windows_valid = false;
@@ -1103,6 +1224,10 @@ Energies Engine<Dim>::energies() const {
   e.kinetic = impl_->kinetic();
   e.elastic = impl_->elastic();
   return e;
+}
+template <int Dim>
+double Engine<Dim>::spring_energy() const {
+  return impl_->spring_energy();
 }
 template <int Dim>
 double Engine<Dim>::mean_motion_energy() const {

@@ -43,6 +43,21 @@ struct Body {
 template <int Dim>
 Body<Dim> body_of(const Strand<Dim>& strand);
 
+// A line of glue as springs: one between a point of body a and a point of body b, each of which rides on a particle p
+// at x_p + F_p offset. With [u] = u_b - u_a since the springs were set, body a is pulled by
+// area (stiffness_n [u_n] + stiffness_t [u_t]) and body b by its opposite.
+template <int Dim>
+struct Spring {
+  struct End {
+    int body = 0, particle = 0;
+    Vec<Dim> offset = Vec<Dim>::Zero();  // mm, at formation
+  };
+  End a, b;
+  Vec<Dim> normal;                          // unit
+  double area = 0;                          // mm (2D, per mm depth) or mm^2
+  double stiffness_t = 0, stiffness_n = 0;  // MPa/mm
+};
+
 enum class Side { kFree, kRoller };
 
 // Background grid: cells of size `cell`, a grid line through `origin` on each axis. Rollers sit on the planes lo and hi
@@ -113,6 +128,11 @@ class Engine {
   void set_platen_velocities(double bottom, double top);            // mm/s
   void set_gravity(const Vec<Dim>& g);                              // mm/s^2
   void set_traction(int body, int face, const Vec<Dim>& traction);  // MPa
+  // Unstretched from now on, in place of those set before. Their stretch is not part of EngineState. The time step does
+  // not know them: it must be below 2/omega of a spring between two nodes. Throws InputError for a body or particle
+  // that is not there, a normal that is no unit vector, or a negative area or stiffness.
+  void set_springs(const std::vector<Spring<Dim>>& springs);
+  void scale_velocities(double factor);   // of all particles: 0 stops them, 1 - alpha dt drags on them
   void resume(const EngineState& state);  // state of a run whose bodies were given to the constructor
 
   // One time step. Throws RunError (step, time, body, position) when a particle leaves the grid, inverts (det F <= 0)
@@ -126,6 +146,7 @@ class Engine {
 
   const EngineState& state() const;
   Energies energies() const;                       // with kinetic and elastic evaluated now
+  double spring_energy() const;                    // mJ, stored in the springs now
   double mean_motion_energy() const;               // mJ, kinetic energy of each body's mean velocity
   Vec<Dim> momentum() const;                       // t mm/s, of the particles
   double mass() const;                             // t
