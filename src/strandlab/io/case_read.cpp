@@ -63,6 +63,17 @@ std::optional<std::string> quote_bare_words(const std::string& value) {
   return "[" + list + "]";
 }
 
+// Numbers written .5 or -.5 as TOML wants them, 0.5; anything else as it is.
+std::string complete_numbers(const std::string& value) {
+  std::string result;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const bool opens = i == 0 || std::string("[, \t+-").find(value[i - 1]) != std::string::npos;
+    if (value[i] == '.' && opens && i + 1 < value.size() && value[i + 1] >= '0' && value[i + 1] <= '9') result += '0';
+    result += value[i];
+  }
+  return result;
+}
+
 Source parse_override(const std::string& text) {
   Source source;
   source.name = "--set " + text;
@@ -73,11 +84,13 @@ Source parse_override(const std::string& text) {
     throw InputError(fmt::format("{}: expected key.path=value, as in --set press.speed_m_s=8", source.name));
   }
   const auto key = text.substr(0, equals), value = text.substr(equals + 1);
-  try {
-    source.table = toml::parse(key + " = " + value);
-    return source;
-  } catch (const toml::parse_error&) {
-    // A word without quotes is not TOML; the shell eats quotes, so it is accepted here.
+  for (const auto& candidate : {value, complete_numbers(value)}) {
+    try {
+      source.table = toml::parse(key + " = " + candidate);
+      return source;
+    } catch (const toml::parse_error&) {
+      // A word without quotes is not TOML; the shell eats quotes, so it is accepted below.
+    }
   }
   const auto words = quote_bare_words(value);
   try {

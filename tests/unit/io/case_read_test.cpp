@@ -20,6 +20,13 @@ std::string refusal(const std::string& text, const std::vector<std::string>& ove
   return message_of<InputError>([&] { case_from_text(text, "panel.toml", overrides); });
 }
 
+// Numbers as people type them at a shell: .2 is not TOML but is no other value either.
+TEST(CaseRead, OverridesTakeNumbersWithoutALeadingZero) {
+  const auto c = case_from_text("", "panel.toml", {"press.compactions=[0, .2,.35]", "kinds.core.angle_deg=-.5"});
+  EXPECT_EQ(c.schedule.compactions, (std::vector<double>{0, 0.2, 0.35}));
+  EXPECT_EQ(c.kinds[1].angle_deg, -0.5);
+}
+
 TEST(CaseRead, DefaultsAreTheMainJob) {
   const Case c = case_from_text("", "panel.toml");
   const auto rows = layup(c).rows;
