@@ -86,7 +86,7 @@ Source parse_override(const std::string& text) {
   const auto key = text.substr(0, equals), value = text.substr(equals + 1);
   for (const auto& candidate : {value, complete_numbers(value)}) {
     try {
-      source.table = toml::parse(key + " = " + candidate);
+      source.table = toml::parse(fmt::format("{} = {}", key, candidate));
       return source;
     } catch (const toml::parse_error&) {
       // A word without quotes is not TOML; the shell eats quotes, so it is accepted below.
