@@ -15,8 +15,8 @@
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/bondline/example.hpp"
 #include "strandlab/bondline/plots.hpp"
+#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
-#include "strandlab/core/write_file.hpp"
 #include "strandlab/report/gnuplot.hpp"
 
 namespace strandlab::app {
@@ -107,7 +107,7 @@ void write_results(const Arguments& a, const bondline::Analysis& analysis, const
   comparison_table(analysis).write(folder / "comparisons.csv");
   const fs::path input = a.file;
   const fs::path json = folder / (input.stem().string() + ".json");
-  write_file(json, bondline::to_json(analysis, input.filename().string()));
+  write_atomically(json, bondline::to_json(analysis, input.filename().string()));
   const int plots = draw(bondline::pictures(analysis), folder);
   fmt::print("written: {}: specimens.csv, groups.csv, comparisons.csv, {}, {} plots\n", folder.string(),
              json.filename().string(), plots);

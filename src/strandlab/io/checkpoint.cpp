@@ -16,9 +16,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/version.hpp"
-#include "strandlab/io/atomic_file.hpp"
 #include "strandlab/io/hdf5.hpp"
 
 namespace strandlab::io {

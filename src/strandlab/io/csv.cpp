@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "strandlab/io/atomic_file.hpp"
+#include "strandlab/core/atomic_file.hpp"
 
 namespace strandlab::io {
 namespace {

@@ -12,9 +12,9 @@
 #include <fstream>
 #include <utility>
 
+#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/version.hpp"
-#include "strandlab/io/atomic_file.hpp"
 
 namespace strandlab::io {
 namespace {

@@ -11,8 +11,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/version.hpp"
-#include "strandlab/io/atomic_file.hpp"
 #include "strandlab/panel/point_fields.hpp"
 
 namespace strandlab::io {

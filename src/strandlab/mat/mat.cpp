@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
-#include "strandlab/core/write_file.hpp"
 
 namespace strandlab::mat {
 namespace {
@@ -262,7 +262,7 @@ std::string to_text(const Mat& mat) {
 
 void write(const Mat& mat, const std::filesystem::path& file) {
   validate(mat, {}, file.string());
-  write_file(file, to_text(mat));
+  write_atomically(file, to_text(mat));
 }
 
 }  // namespace strandlab::mat

@@ -13,8 +13,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
-#include "strandlab/io/atomic_file.hpp"
 #include "strandlab/report/colour_map.hpp"
 
 namespace strandlab::report {
@@ -136,7 +136,7 @@ Finished run(const std::string& program, const std::string& script_file) {
 class ScriptFile {
  public:
   ScriptFile(std::filesystem::path file, const std::string& text) : file_(std::move(file)) {
-    io::write_atomically(file_, text);
+    write_atomically(file_, text);
   }
   ~ScriptFile() {
     std::error_code ignored;
@@ -195,7 +195,7 @@ std::optional<std::string> draw_script(const std::string& script, const std::fil
   if (gnuplot.status != 0 || gnuplot.out.empty()) {
     return fmt::format("no picture {}: {} failed: {}", png.string(), program, gnuplot.messages);
   }
-  io::write_atomically(png, gnuplot.out);
+  write_atomically(png, gnuplot.out);
   return std::nullopt;
 }
 

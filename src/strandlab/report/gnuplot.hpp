@@ -31,7 +31,7 @@ struct Plot {
 std::string gnuplot_script(const Plot& plot);
 
 // Runs a gnuplot program that prints a PNG to its standard output and replaces `png` atomically by it. Returns a
-// sentence for the log where gnuplot is missing or fails; throws as io::write_atomically(). `program` is the gnuplot to
+// sentence for the log where gnuplot is missing or fails; throws as write_atomically(). `program` is the gnuplot to
 // run.
 std::optional<std::string> draw_script(const std::string& script, const std::filesystem::path& png,
                                        const std::string& program = "gnuplot");

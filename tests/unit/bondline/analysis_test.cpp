@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "strandlab/core/error.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace strandlab::bondline {
 namespace {
@@ -27,13 +28,6 @@ std::string stiffness(double compliance) {
 
 class BondlineFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) / (std::string("strandlab_bondline_") + test->name());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path write(const std::string& name, const std::string& text) {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return folder_ / name;
@@ -46,7 +40,7 @@ class BondlineFiles : public testing::Test {
     }
     return "no error";
   }
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 // Two groups whose specimens have known 1/D_t: .01, .02, .03 and .001, .002, .003 mm/MPa.
@@ -188,13 +182,13 @@ TEST_F(BondlineFiles, StiffnessFromRecords) {
       write("specimens.csv",
             "id,group,E1_MPa,E2_MPa,t1_mm,t2_mm,W_mm,l_mm,L1_mm,L2_mm,record\na,g,9936,9936,0.69,0.69,6,25,5,5,\n"
             "b,g,9936,9936,0.69,0.69,6,25,5,5,other.csv\nc,g,9936,9936,0.69,0.69,6,25,5,5,\n");
-  const SpecimenTable read = read_specimens(table, Records{folder_, {}});
+  const SpecimenTable read = read_specimens(table, Records{folder_.path(), {}});
   EXPECT_NEAR(*read.specimens[0].k_N_per_mm, 2300, .01);
   EXPECT_NEAR(*read.specimens[1].k_N_per_mm, 2000, .01);
   EXPECT_NE(read.specimens[2].problem.find("c.csv: only"), std::string::npos);
   EXPECT_EQ(analyse(read, {}).groups[0].excluded, 1);
   EXPECT_THROW(read_specimens(table, Records{folder_ / "none", {}}), InputError);
-  EXPECT_THROW(read_specimens(table, Records{folder_, {.5, .2, true}}), InputError);
+  EXPECT_THROW(read_specimens(table, Records{folder_.path(), {.5, .2, true}}), InputError);
   EXPECT_THROW(read_specimens(table), InputError);  // without records k must be in the table
 }
 

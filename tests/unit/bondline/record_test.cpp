@@ -7,6 +7,7 @@
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/random.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace strandlab::bondline {
 namespace {
@@ -128,11 +129,11 @@ TEST(Record, WindowsOutOfRangeAreErrors) {
 }
 
 TEST(Record, FileOfATestingMachine) {
-  const auto file = std::filesystem::temp_directory_path() / "strandlab_record_test.csv";
+  const test::TemporaryFolder folder;
+  const auto file = folder / "record.csv";
   std::ofstream(file) << "Specimen label;S12\r\nRate;1 mm/min\r\n\r\nTime;Extension;Load\r\n(s);(mm);(kN)\r\n"
                          "0,0;0,000;0,000\r\n0,1;0,010;0,025\r\n0,2;0,020;\r\n0,3;0,030;0,075\r\n";
   const auto record = read_record(file);
-  std::filesystem::remove(file);
   ASSERT_EQ(record.size(), 3U);
   EXPECT_NEAR(record[1].load_N, 25, 1e-12);
   EXPECT_NEAR(record[2].displacement_mm, .03, 1e-15);

@@ -5,7 +5,7 @@
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/io/case.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace strandlab::io {
 namespace {

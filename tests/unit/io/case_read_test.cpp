@@ -7,7 +7,7 @@
 #include "case_samples.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/io/case_keys.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace strandlab::io {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "case_samples.hpp"
 #include "strandlab/core/error.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace strandlab::io {
 namespace {

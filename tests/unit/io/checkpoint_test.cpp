@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "strandlab/core/error.hpp"
-#include "temporary_folder.hpp"
-#include "unwritable.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/unwritable.hpp"
 
 // For the leak checker of the debug build: HDF5 1.10 forgets some of its memory when it refuses a damaged file.
 extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)

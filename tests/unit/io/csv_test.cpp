@@ -10,7 +10,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace strandlab::io {
 namespace {

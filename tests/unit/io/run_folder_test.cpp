@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "strandlab/core/error.hpp"
-#include "temporary_folder.hpp"
-#include "unwritable.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/unwritable.hpp"
 
 namespace strandlab::io {
 namespace {

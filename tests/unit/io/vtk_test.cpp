@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "strandlab/core/error.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace strandlab::io {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/mat/form.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace strandlab::mat {
 namespace {
@@ -19,15 +20,6 @@ namespace fs = std::filesystem;
 // A folder of the test's own, removed at the end.
 class MatFile : public testing::Test {
  protected:
-  void SetUp() override {
-    auto name = std::string(testing::UnitTest::GetInstance()->current_test_info()->name());
-    for (auto& c : name) c = c == '/' ? '_' : c;
-    folder_ = fs::path(testing::TempDir()) / ("strandlab_mat_" + name);
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path put(const std::string& text) const {
     auto file = folder_ / "mat.json";
     std::ofstream(file, std::ios::binary) << text;
@@ -37,7 +29,7 @@ class MatFile : public testing::Test {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
   }
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 const std::vector<std::string> kKinds{"surface", "core"};
@@ -253,7 +245,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& tested) { return tested.param.name; });
 
 TEST_F(MatFile, MissingFileAndFolderAreNamed) {
-  for (const auto& file : {folder_ / "none.json", folder_}) {
+  for (const auto& file : {folder_ / "none.json", folder_.path()}) {
     try {
       read(file, kKinds);
       FAIL() << "accepted";

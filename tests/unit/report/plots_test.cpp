@@ -6,8 +6,8 @@
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/report/gnuplot.hpp"
+#include "support/temporary_folder.hpp"
 #include "synthetic_panel.hpp"
-#include "unit/io/temporary_folder.hpp"
 
 namespace strandlab::report {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/report/colour_map.hpp"
+#include "support/temporary_folder.hpp"
 #include "synthetic_panel.hpp"
-#include "unit/io/temporary_folder.hpp"
 
 // For the leak checker of the debug build: fontconfig keeps its caches to the end of the program.
 extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)

@@ -10,16 +10,15 @@
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/bondline/example.hpp"
 #include "support/report.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace strandlab::bondline {
 namespace {
 
 Analysis analyse_example(const Options& options) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "strandlab_table_2_1.csv";
-  std::ofstream(file) << example_table(1);
-  Analysis analysis = analyse(read_specimens(file), options);
-  std::filesystem::remove(file);
-  return analysis;
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "table.csv") << example_table(1);
+  return analyse(read_specimens(folder / "table.csv"), options);
 }
 
 const Group& group(const Analysis& analysis, const std::string& name) {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string_view>
 
-namespace strandlab::io {
+namespace strandlab {
 
 // Writes `file` through a temporary file in the same folder ("<file>.tmp") that is synced to disk and renamed over
 // `file`. Whatever happens before the rename leaves `file` as it was; a leftover temporary file of a killed run is
@@ -15,4 +15,4 @@ namespace strandlab::io {
 void write_atomically(const std::filesystem::path& file, std::string_view bytes,
                       const std::function<void()>& before_rename = nullptr);
 
-}  // namespace strandlab::io
+}  // namespace strandlab

@@ -1,4 +1,4 @@
-#include "strandlab/io/atomic_file.hpp"
+#include "strandlab/core/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 #include "strandlab/core/error.hpp"
 
-namespace strandlab::io {
+namespace strandlab {
 namespace {
 
 namespace fs = std::filesystem;
@@ -99,4 +99,4 @@ void write_atomically(const fs::path& file, std::string_view bytes, const std::f
   sync_folder(folder_of(file));
 }
 
-}  // namespace strandlab::io
+}  // namespace strandlab

@@ -1,14 +1,14 @@
-#include "strandlab/io/atomic_file.hpp"
+#include "strandlab/core/atomic_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
 #include "strandlab/core/error.hpp"
-#include "temporary_folder.hpp"
-#include "unwritable.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/unwritable.hpp"
 
-namespace strandlab::io {
+namespace strandlab {
 namespace {
 
 using test::contents;
@@ -87,4 +87,4 @@ TEST(AtomicFile, FullDiskFailsTheRunAndLeavesTheOldFile) {
 }
 
 }  // namespace
-}  // namespace strandlab::io
+}  // namespace strandlab
