@@ -10,9 +10,11 @@
 #include "commands.hpp"
 #include "duration.hpp"
 #include "journey.hpp"
+#include "profile_bins.hpp"
 #include "strandlab/io/case_estimate.hpp"
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/io/vtk.hpp"
+#include "strandlab/report/density_profiles.hpp"
 #include "strandlab/report/morphology.hpp"
 #include "strandlab/report/plots.hpp"
 #include "strandlab/report/result_tables.hpp"
@@ -100,8 +102,39 @@ void warn_if(Console& console, const report::Warning& warning) {
   if (warning) console.warn(*warning);
 }
 
+// What run.json keeps of the density profiles.
+nlohmann::json profile_summaries(const std::vector<profile::Profile>& profiles) {
+  auto list = nlohmann::json::array();
+  for (const auto& p : profiles) {
+    const auto s = profile::summarise(p);
+    list.push_back({{"compaction", p.compaction},
+                    {"mean_kg_m3", s.mean},
+                    {"peak_kg_m3", s.peak},
+                    {"peak_depth_mm", s.peak_depth_mm},
+                    {"skin_kg_m3", s.skin},
+                    {"surface_kg_m3", s.surface},
+                    {"core_kg_m3", s.core},
+                    {"surface_over_core", s.surface_over_core()}});
+  }
+  return list;
+}
+
+void write_profiles(Journey& journey, const std::vector<Panel<2>>& panels, Console& console) {
+  auto& folder = journey.folder;
+  std::vector<profile::Profile> profiles;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const double compaction = journey.c.schedule.compactions[i];
+    profiles.push_back(profile::density_profile(panels[i], bins_of_one_cell(journey.c, panels[i], compaction)));
+    profiles.back().compaction = compaction;  // as in the other tables; the panel is one time step beyond
+  }
+  report::profile_table(profiles).write(folder.file("profile.csv"));
+  report::profile_summary_table(profiles).write(folder.file("profile_summary.csv"));
+  warn_if(console, report::plot_density_profiles(profiles, folder.file("pictures") / "density_profile.png"));
+  folder.record(io::Step::kPress)["density_profiles"] = profile_summaries(profiles);
+}
+
 // Everything that follows from the panels and the record of the pressing.
-void write_report(const Journey& journey, const std::vector<press::Record>& records, Console& console) {
+void write_report(Journey& journey, const std::vector<press::Record>& records, Console& console) {
   const auto& folder = journey.folder;
   const auto panels = read_panels(journey);
   std::vector<io::PvdEntry> states;
@@ -114,6 +147,7 @@ void write_report(const Journey& journey, const std::vector<press::Record>& reco
   io::write_pvd(states, folder.file("paraview") / "panel.pvd");
   report::morphology_table(shapes).write(folder.file("morphology.csv"));
   report::histogram_table(shapes).write(folder.file("histograms.csv"));
+  write_profiles(journey, panels, console);
   draw_pictures(journey, panels);
   warn_if(console, report::plot_stress(records, folder.file("pictures") / "stress.png"));
   warn_if(console, report::plot_grain_angles(shapes, folder.file("pictures") / "grain_angles.png"));

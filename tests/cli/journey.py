@@ -28,7 +28,7 @@ checkpoint_interval_s = 0.05
 """
 
 # What must not depend on kills and threads, to the last bit.
-RESULTS = ("mat.json", "press.csv", "moduli.csv", "morphology.csv", "histograms.csv")
+RESULTS = ("mat.json", "press.csv", "moduli.csv", "morphology.csv", "histograms.csv", "profile.csv")
 
 
 def results(folder):

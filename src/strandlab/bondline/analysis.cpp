@@ -88,7 +88,7 @@ void make_groups(Analysis& analysis) {
     std::vector<const Evaluated*> members;
     for (const auto& specimen : analysis.specimens)
       if (specimen.group == group.name) members.push_back(&specimen);
-    group.compliance_t = summarise(values_of(analysis, group));
+    group.compliance_t = statistics::summarise(values_of(analysis, group));
     group.excluded = static_cast<int>(members.size()) - group.compliance_t.n;
     evaluate_mean_k(members, analysis.options.formula, group);
   }
@@ -115,9 +115,9 @@ Family compare(const Analysis& analysis, const std::string& name) {
     family.note += fmt::format("{}no comparison: it takes two groups with scatter", family.note.empty() ? "" : "; ");
     return family;
   }
-  family.anova = anova(data);
-  family.welch = welch_anova(data);
-  family.pairs = holm_welch_pairs(data);
+  family.anova = statistics::anova(data);
+  family.welch = statistics::welch_anova(data);
+  family.pairs = statistics::holm_welch_pairs(data);
   return family;
 }
 

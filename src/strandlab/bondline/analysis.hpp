@@ -8,7 +8,7 @@
 
 #include "strandlab/bondline/record.hpp"
 #include "strandlab/bondline/shear_lag.hpp"
-#include "strandlab/bondline/statistics.hpp"
+#include "strandlab/statistics/statistics.hpp"
 
 namespace strandlab::bondline {
 
@@ -59,7 +59,7 @@ struct Evaluated {
 struct Group {
   std::string name, family;
   int excluded = 0;
-  Summary compliance_t;                      // mm/MPa, of the specimens not excluded
+  statistics::Summary compliance_t;          // mm/MPa, of the specimens not excluded
   int n_mean_k = 0;                          // specimens with a stiffness, excluded ones too
   double mean_k_N_per_mm = 0;                // NaN without any
   Geometry mean_geometry;                    // of those specimens
@@ -70,9 +70,9 @@ struct Group {
 struct Family {
   std::string name;
   std::vector<int> groups;  // indices into Analysis::groups, those with two values or more
-  std::optional<Anova> anova;
-  std::optional<WelchAnova> welch;
-  std::vector<Pair> pairs;  // indices into `groups` above
+  std::optional<statistics::Anova> anova;
+  std::optional<statistics::WelchAnova> welch;
+  std::vector<statistics::Pair> pairs;  // indices into `groups` above
   std::string note;
 };
 

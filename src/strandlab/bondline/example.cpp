@@ -9,8 +9,8 @@
 #include <cstdint>
 
 #include "strandlab/bondline/shear_lag.hpp"
-#include "strandlab/bondline/statistics.hpp"
 #include "strandlab/core/random.hpp"
+#include "strandlab/statistics/statistics.hpp"
 
 namespace strandlab::bondline {
 namespace {
@@ -23,14 +23,14 @@ std::vector<double> log_normal(int n, double mean, double variation) {
     return result;
   };
   const auto excess = [&](double sigma) {
-    const Summary s = summarise(values(sigma));
+    const statistics::Summary s = statistics::summarise(values(sigma));
     return s.sd / s.mean - variation;
   };
   std::uintmax_t iterations = 100;
   const auto sigma =
       boost::math::tools::toms748_solve(excess, 1e-3, 20.0, boost::math::tools::eps_tolerance<double>(40), iterations);
   std::vector<double> result = values(sigma.first);
-  const double scale = mean / summarise(result).mean;
+  const double scale = mean / statistics::summarise(result).mean;
   for (double& value : result) value *= scale;
   return result;
 }

@@ -80,7 +80,7 @@ std::string means_script(const Analysis& analysis) {
   for (std::size_t i = 0; i < analysis.groups.size(); ++i) {
     const Group& group = analysis.groups[i];
     const auto members = included(analysis, group);
-    const Summary& s = group.compliance_t;
+    const statistics::Summary& s = group.compliance_t;
     ticks += fmt::format("{}\"{}\" {}", ticks.empty() ? "" : ", ", escaped(group.name), i);
     if (s.n >= 2) means += fmt::format("{} {:.8g} {:.8g} {:.8g}\n", i, s.mean, s.low, s.high);
     for (std::size_t j = 0; j < members.size(); ++j) {

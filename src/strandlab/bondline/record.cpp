@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "strandlab/bondline/table.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/table/table.hpp"
 
 namespace strandlab::bondline {
 namespace {
@@ -161,11 +161,12 @@ void flag_slip(const Points& branch, const Points& window, const Line& line, dou
 }  // namespace
 
 std::vector<LoadPoint> read_record(const std::filesystem::path& file) {
-  const Table table(file, {{{"load", "force", "standard force"}, Dimension::kForce, "N"},
-                           {{"displacement", "extension", "elongation"}, Dimension::kLength, "mm"}});
+  using table::Dimension;
+  const table::Table rows(file, {{{"load", "force", "standard force"}, Dimension::kForce, "N"},
+                                 {{"displacement", "extension", "elongation"}, Dimension::kLength, "mm"}});
   std::vector<LoadPoint> record;
-  for (int row = 0; row < table.rows(); ++row) {
-    const auto load = table.number(row, "load"), displacement = table.number(row, "displacement");
+  for (int row = 0; row < rows.rows(); ++row) {
+    const auto load = rows.number(row, "load"), displacement = rows.number(row, "displacement");
     if (load && displacement) record.push_back({*load, *displacement});
   }
   return record;

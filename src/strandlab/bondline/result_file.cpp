@@ -44,7 +44,7 @@ Json specimen_json(const Evaluated& s, const std::vector<std::string>& factors) 
 }
 
 Json group_json(const Group& g) {
-  const Summary& c = g.compliance_t;
+  const statistics::Summary& c = g.compliance_t;
   return {{"group", g.name},
           {"within", g.family},
           {"n", c.n},
@@ -62,12 +62,12 @@ Json family_json(const Analysis& analysis, const Family& family) {
   Json json{{"within", family.name}};
   if (!family.note.empty()) json["note"] = family.note;
   if (!family.anova) return json;
-  const Anova& a = *family.anova;
-  const WelchAnova& w = *family.welch;
+  const statistics::Anova& a = *family.anova;
+  const statistics::WelchAnova& w = *family.welch;
   json["anova"] = {{"F", number(a.F)}, {"df", {a.df_between, a.df_within}}, {"p", number(a.p)}};
   json["welch_anova"] = {{"F", number(w.F)}, {"df", {w.df_between, w.df_within}}, {"p", number(w.p)}};
   json["pairs_test"] = "Welch's t-test, p corrected by Holm's step-down method";
-  for (const Pair& pair : family.pairs)
+  for (const statistics::Pair& pair : family.pairs)
     json["pairs"].push_back({{"first", analysis.groups[family.groups[pair.first]].name},
                              {"second", analysis.groups[family.groups[pair.second]].name},
                              {"difference_mm_per_MPa", pair.difference},

@@ -5,11 +5,13 @@
 #include <utility>
 
 #include "strandlab/bondline/analysis.hpp"
-#include "strandlab/bondline/table.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/table/table.hpp"
 
 namespace strandlab::bondline {
 namespace {
+
+using table::Dimension, table::Quantity, table::Table;
 
 std::vector<Quantity> columns(bool from_records) {
   const auto length = [](const char* name, const char* alias) {

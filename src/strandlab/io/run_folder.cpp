@@ -33,8 +33,8 @@ const char* name_of_step(Step step) {
 std::vector<std::string> results_of(Step step) {
   if (step == Step::kMat) return {"mat.json"};
   if (step == Step::kPress) {
-    return {"press.csv", "morphology.csv", "histograms.csv", "checkpoint.h5", "checkpoint.previous.h5",
-            "panels",    "paraview",       "pictures"};
+    return {"press.csv",     "morphology.csv",         "histograms.csv", "profile.csv", "profile_summary.csv",
+            "checkpoint.h5", "checkpoint.previous.h5", "panels",         "paraview",    "pictures"};
   }
   return {"moduli.csv", "theory.csv", "plots"};
 }

@@ -66,6 +66,15 @@ std::string data_block(const Curve& curve, const std::string& name) {
   return block + "END\n";
 }
 
+std::string data_block(const Band& band, const std::string& name) {
+  std::string block = fmt::format("${} << END\n", name);
+  for (std::size_t i = 0; i < band.x.size(); ++i) {
+    if (std::isfinite(band.low[i]) && std::isfinite(band.high[i]))
+      block += fmt::format("{} {} {}\n", band.x[i], band.low[i], band.high[i]);
+  }
+  return block + "END\n";
+}
+
 class Pipe {
  public:
   Pipe() {
@@ -165,6 +174,14 @@ std::string gnuplot_script(const Plot& plot) {
     script += "unset key\nset rmargin 4\n";
   }
   std::string curves;
+  for (std::size_t i = 0; i < plot.bands.size(); ++i) {
+    if (plot.bands[i].x.empty()) continue;
+    script += data_block(plot.bands[i], fmt::format("band{}", i));
+    curves +=
+        fmt::format("$band{} using 1:2:3 with filledcurves fs transparent solid 0.2 noborder lc rgb \"{}\" notitle", i,
+                    colour(i, plot.curves.size()));
+    curves += ", ";
+  }
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
     script += data_block(plot.curves[i], fmt::format("curve{}", i));
     if (i > 0) curves += ", ";

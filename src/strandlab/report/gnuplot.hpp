@@ -13,6 +13,11 @@ struct Curve {
   std::vector<double> x, y;
 };
 
+// Drawn behind the curve of the same number, in its colour made light.
+struct Band {
+  std::vector<double> x, low, high;
+};
+
 enum class CurveStyle { kLines, kLinesAndPoints, kSteps };
 
 struct Plot {
@@ -24,6 +29,7 @@ struct Plot {
   // What the curves are compared with: dashed dark lines over them, a mark where there is only one point. An empty name
   // continues the reference before it: the same dashes, no further entry in the key.
   std::vector<Curve> references;
+  std::vector<Band> bands{};  // none, or one for each curve (which may be empty)
 };
 
 // The gnuplot program text of a plot that prints a PNG to its standard output. Curves keep their colour from the first

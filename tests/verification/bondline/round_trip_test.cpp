@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "strandlab/bondline/shear_lag.hpp"
-#include "strandlab/bondline/statistics.hpp"
 #include "strandlab/core/random.hpp"
+#include "strandlab/statistics/statistics.hpp"
 #include "support/report.hpp"
 
 namespace strandlab::bondline {
@@ -47,7 +47,7 @@ Trial run(const Geometry& truth, double compliance, const Uncertainty& u, Formul
     trial.stated += p.standard_mm_per_MPa / kSamples;
     trial.coverage += (p.low_mm_per_MPa <= compliance && compliance <= p.high_mm_per_MPa ? 1.0 : 0.0) / kSamples;
   }
-  const Summary s = summarise(found);
+  const statistics::Summary s = statistics::summarise(found);
   trial.mean = s.mean;
   trial.scatter = s.sd;
   return trial;

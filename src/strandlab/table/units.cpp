@@ -1,11 +1,11 @@
-#include "strandlab/bondline/units.hpp"
+#include "strandlab/table/units.hpp"
 
 #include <array>
 #include <cctype>
 #include <string_view>
 #include <utility>
 
-namespace strandlab::bondline {
+namespace strandlab::table {
 namespace {
 
 struct Unit {
@@ -15,9 +15,12 @@ struct Unit {
   double factor;
 };
 
-constexpr double kInch = 25.4;                        // mm, exact
-constexpr double kPoundForce = 4.4482216152605;       // N, exact
-constexpr double kKilopond = 9.80665;                 // N, exact
+constexpr double kInch = 25.4;                   // mm, exact
+constexpr double kPoundForce = 4.4482216152605;  // N, exact
+constexpr double kKilopond = 9.80665;            // N, exact
+constexpr double kFoot = 12 * kInch / 1000;      // m, exact
+constexpr double kPound = 0.45359237;            // kg, exact
+constexpr double kPoundPerCubicFoot = kPound / (kFoot * kFoot * kFoot);
 constexpr double kPsi = kPoundForce / kInch / kInch;  // MPa
 
 constexpr std::array kUnits{
@@ -51,6 +54,16 @@ constexpr std::array kUnits{
     Unit{Dimension::kStiffness, "n/um", "N/um", 1000},
     Unit{Dimension::kStiffness, "lbf/in", "lbf/in", kPoundForce / kInch},
     Unit{Dimension::kStiffness, "lb/in", "", kPoundForce / kInch},
+    Unit{Dimension::kDensity, "kg/m3", "kg/m3", 1},
+    Unit{Dimension::kDensity, "kg_m3", "", 1},
+    Unit{Dimension::kDensity, "g/cm3", "g/cm3", 1000},
+    Unit{Dimension::kDensity, "g_cm3", "", 1000},
+    Unit{Dimension::kDensity, "lb/ft3", "lb/ft3", kPoundPerCubicFoot},
+    Unit{Dimension::kDensity, "lb_ft3", "", kPoundPerCubicFoot},
+    Unit{Dimension::kDensity, "lbs/ft3", "", kPoundPerCubicFoot},
+    Unit{Dimension::kDensity, "lbm/ft3", "", kPoundPerCubicFoot},
+    Unit{Dimension::kDensity, "lb/cuft", "", kPoundPerCubicFoot},
+    Unit{Dimension::kDensity, "pcf", "pcf", kPoundPerCubicFoot},
 };
 
 void replace_all(std::string& text, std::string_view what, std::string_view with) {
@@ -65,7 +78,8 @@ std::string normal_form(const std::string& unit) {
       text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const auto& [what, with] :
        {std::pair{"_per_", "/"}, std::pair{"per", "/"}, std::pair{"\xC2\xB2", "2"}, std::pair{"^2", "2"},
-        std::pair{"\xC2\xB5", "u"}, std::pair{"\xCE\xBC", "u"}, std::pair{"\"", "in"}})
+        std::pair{"\xC2\xB3", "3"}, std::pair{"^3", "3"}, std::pair{"cu.ft", "cuft"}, std::pair{"\xC2\xB5", "u"},
+        std::pair{"\xCE\xBC", "u"}, std::pair{"\"", "in"}})
     replace_all(text, what, with);
   return text;
 }
@@ -87,4 +101,4 @@ std::string known_units(Dimension dimension) {
   return list;
 }
 
-}  // namespace strandlab::bondline
+}  // namespace strandlab::table

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace strandlab::bondline {
+namespace strandlab::statistics {
 
 // What a group says on its own. Quantities that need two values (or a spread) are NaN where there is none.
 struct Summary {
@@ -43,4 +43,4 @@ struct Pair {
 // All pairs, in order of the groups. Same demands as welch_anova().
 std::vector<Pair> holm_welch_pairs(const std::vector<std::vector<double>>& groups);
 
-}  // namespace strandlab::bondline
+}  // namespace strandlab::statistics

@@ -1,4 +1,4 @@
-#include "strandlab/bondline/statistics.hpp"
+#include "strandlab/statistics/statistics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "strandlab/core/error.hpp"
 
-namespace strandlab::bondline {
+namespace strandlab::statistics {
 namespace {
 
 // Student, "The probable error of a mean", Biometrika 6 (1908) 1: hours of sleep gained with two drugs by ten patients.
@@ -111,4 +111,4 @@ TEST(Statistics, ComparisonsNeedGroups) {
 }
 
 }  // namespace
-}  // namespace strandlab::bondline
+}  // namespace strandlab::statistics

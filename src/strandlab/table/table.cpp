@@ -1,4 +1,4 @@
-#include "strandlab/bondline/table.hpp"
+#include "strandlab/table/table.hpp"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,11 @@
 #include <fstream>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "strandlab/core/error.hpp"
 
-namespace strandlab::bondline {
+namespace strandlab::table {
 namespace {
 
 bool is_blank(char c) {
@@ -59,6 +60,11 @@ std::string bare_number(const std::string& cell) {
   return text;
 }
 
+bool looks_like_number(const std::string& cell) {
+  const std::string number = bare_number(cell);
+  return !number.empty() && std::string_view("0123456789-.,").find(number.front()) != std::string_view::npos;
+}
+
 // The text a header or units cell holds between brackets and separators: "_mm", " (mm)", "[mm]", ", in mm" -> "mm".
 std::string unit_text(std::string_view rest) {
   constexpr std::string_view kOpen = " _([,/:", kClose = " )]";
@@ -74,6 +80,33 @@ std::optional<std::string> after_name(const std::string& header, const std::stri
   const std::string rest = header.substr(name.size());
   if (!rest.empty() && std::string_view(" _([,/:").find(rest.front()) == std::string_view::npos) return std::nullopt;
   return rest;
+}
+
+constexpr std::string_view kSeparators = " _([,/:;)]-\t";
+
+// A text without the separators at its ends.
+std::string words(const std::string& text) {
+  const auto first = text.find_first_not_of(kSeparators);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(kSeparators) + 1 - first);
+}
+
+// Unit and other words of a header behind its name: the longest run of whole words that is a known unit. The words
+// before and after it are the label: " 3 (kg/m3)" -> kg/m3, 3. Without a known unit all is label.
+std::pair<std::string, std::string> unit_and_label(Dimension dimension, const std::string& rest) {
+  const auto is_edge = [&rest](std::size_t at) {
+    return at == 0 || at == rest.size() || kSeparators.find(rest[at - 1]) != std::string_view::npos ||
+           kSeparators.find(rest[at]) != std::string_view::npos;
+  };
+  for (std::size_t length = rest.size(); length > 0; --length) {
+    for (std::size_t past = rest.size(); past >= length; --past) {  // a unit stands last: "distance in board (mm)"
+      const std::size_t from = past - length;
+      const std::string part = rest.substr(from, length);
+      if (!is_edge(from) || !is_edge(from + length) || !unit_factor(dimension, part)) continue;
+      const std::string before = words(rest.substr(0, from)), after = words(rest.substr(past));
+      return {part, before.empty() || after.empty() ? before + after : before + " " + after};
+    }
+  }
+  return {"", words(rest)};
 }
 
 std::string file_text(const std::filesystem::path& file) {
@@ -201,29 +234,40 @@ std::vector<Table::Row> Table::split(const std::string& text, char delimiter) {
   return rows;
 }
 
+void Table::find_column(const Quantity& quantity, const Row& header, int column, Found& found) const {
+  const std::string& cell = header.cells[column];
+  for (const auto& name : quantity.names) {
+    const auto rest = after_name(cell, name);
+    if (!rest) continue;
+    const auto [unit, label] = quantity.several ? unit_and_label(quantity.dimension, *rest)
+                                                : std::pair<std::string, std::string>{unit_text(*rest), ""};
+    const auto factor = unit_factor(quantity.dimension, unit);
+    if (!unit.empty() && !factor) {
+      if (quantity.dimension != Dimension::kText) found.doubt = cell;
+      continue;
+    }
+    if (!found.columns.empty() && found.columns.back().number == column) continue;
+    if (!found.columns.empty() && !quantity.several)
+      throw InputError(fmt::format("{}:{}: columns '{}' and '{}' both give {}", source_, header.line,
+                                   header.cells[found.columns[0].number], cell, quantity.names[0]));
+    found.columns.push_back({column, factor, label});
+  }
+}
+
 std::vector<Table::Found> Table::find_columns(const Row& header) const {
   std::vector<Found> result(quantities_.size());
+  const int width = static_cast<int>(header.cells.size());
   for (std::size_t q = 0; q < quantities_.size(); ++q) {
     const auto& quantity = quantities_[q];
-    for (std::size_t column = 0; column < header.cells.size(); ++column) {
-      for (const auto& name : quantity.names) {
-        const auto rest = after_name(header.cells[column], name);
-        if (!rest) continue;
-        const std::string unit = unit_text(*rest);
-        const auto factor = unit_factor(quantity.dimension, unit);
-        const bool fits = unit.empty() || factor;
-        if (!fits) {
-          if (quantity.dimension != Dimension::kText) result[q].doubt = header.cells[column];
-          continue;
-        }
-        if (result[q].column == static_cast<int>(column)) continue;
-        if (result[q].column >= 0)
-          throw InputError(fmt::format("{}:{}: columns '{}' and '{}' both give {}", source_, header.line,
-                                       header.cells[result[q].column], header.cells[column], quantity.names[0]));
-        result[q].column = static_cast<int>(column);
-        result[q].factor = factor;
-      }
+    for (const int number : quantity.columns) {
+      if (number < 1 || number > width)
+        throw InputError(fmt::format("{}:{}: no column {} for {}; there are {} columns", source_, header.line, number,
+                                     quantity.names[0], width));
+      const auto [unit, label] = unit_and_label(quantity.dimension, header.cells[number - 1]);
+      result[q].columns.push_back({number - 1, unit_factor(quantity.dimension, unit), label});
     }
+    if (!quantity.columns.empty()) continue;
+    for (int column = 0; column < width; ++column) find_column(quantity, header, column, result[q]);
   }
   return result;
 }
@@ -239,12 +283,15 @@ int Table::matches(const Row& header) const {
   return count;
 }
 
-void Table::parse(const std::string& text) {
-  constexpr std::size_t kHeaderWithin = 100;  // rows of remarks that may stand above the header
+constexpr std::array kDelimiters{'\t', ';', ','};
+constexpr std::size_t kHeaderWithin = 100;  // rows of remarks that may stand above the header
+
+// The row that names most quantities; the delimiter is the one with which it does.
+std::size_t Table::find_header(const std::string& text) {
   std::size_t header = 0;
   int best = -1;
-  for (char delimiter : {'\t', ';', ','}) {
-    auto rows = split(text, delimiter);
+  for (const char delimiter : kDelimiters) {
+    const auto rows = split(text, delimiter);
     for (std::size_t i = 0; i < std::min(rows.size(), kHeaderWithin); ++i) {
       const int score = matches(rows[i]);
       if (score <= best) continue;
@@ -253,52 +300,127 @@ void Table::parse(const std::string& text) {
       delimiter_ = delimiter;
     }
   }
+  return header;
+}
+
+bool Table::numbers_at_columns(const Row& row) const {
+  for (const auto& quantity : quantities_) {
+    if (quantity.dimension == Dimension::kText) continue;
+    for (const int number : quantity.columns) {
+      if (number < 1 || number > static_cast<int>(row.cells.size()) || !looks_like_number(row.cells[number - 1]))
+        return false;
+    }
+  }
+  return true;
+}
+
+// Where columns are given by number: the row above the first that has numbers there, with the delimiter that gives most
+// such rows. A table without a header gets an empty one.
+std::size_t Table::find_header_by_columns(const std::string& text) {
+  std::ptrdiff_t most = 0;
+  for (const char delimiter : kDelimiters) {
+    const auto rows = split(text, delimiter);
+    const auto count = std::count_if(rows.begin(), rows.end(), [&](const Row& row) { return numbers_at_columns(row); });
+    if (count <= most) continue;
+    most = count;
+    delimiter_ = delimiter;
+  }
+  if (most == 0) return find_header(text);
   rows_ = split(text, delimiter_);
+  std::size_t width = 0, first = 0;
+  while (!numbers_at_columns(rows_[first])) ++first;
+  for (auto i = first; i < rows_.size(); ++i) width = std::max(width, rows_[i].cells.size());
+  if (first == 0) {
+    rows_.insert(rows_.begin(), Row{rows_.front().line, {}});
+    first = 1;
+  }
+  rows_[first - 1].cells.resize(std::max(width, rows_[first - 1].cells.size()));
+  return first - 1;
+}
+
+void Table::parse(const std::string& text) {
+  const bool by_number = std::all_of(quantities_.begin(), quantities_.end(),
+                                     [](const Quantity& q) { return !q.required || !q.columns.empty(); });
+  const std::size_t header = by_number ? find_header_by_columns(text) : find_header(text);
+  if (rows_.empty()) rows_ = split(text, delimiter_);
   if (rows_.empty()) throw InputError(fmt::format("{}: is empty", source_));
   header_ = rows_[header];
   rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(header) + 1);
   found_ = find_columns(header_);
-  for (std::size_t column = 0; column < header_.cells.size(); ++column) {
-    const bool taken =
-        std::any_of(found_.begin(), found_.end(), [&](const Found& f) { return f.column == static_cast<int>(column); });
-    if (!taken && !header_.cells[column].empty()) others_.push_back(static_cast<int>(column));
+  for (int column = 0; column < static_cast<int>(header_.cells.size()); ++column) {
+    const bool taken = std::any_of(found_.begin(), found_.end(), [&](const Found& f) {
+      return std::any_of(f.columns.begin(), f.columns.end(), [&](const Column& c) { return c.number == column; });
+    });
+    if (!taken && !header_.cells[column].empty()) others_.push_back(column);
   }
   read_units_row();
+  take_stated_units();
   check_columns();
   check_cells();
+}
+
+// Every column that holds numbers: visit(index of its quantity, column).
+template <class Visit>
+void Table::for_each_number_column(Visit visit) const {
+  for (std::size_t q = 0; q < quantities_.size(); ++q) {
+    if (quantities_[q].dimension == Dimension::kText) continue;
+    for (std::size_t k = 0; k < found_[q].columns.size(); ++k) visit(q, k);
+  }
 }
 
 void Table::read_units_row() {
   if (rows_.empty()) return;
   const Row& row = rows_.front();
-  bool units = false;
-  for (std::size_t q = 0; q < quantities_.size(); ++q) {
-    if (quantities_[q].dimension == Dimension::kText || found_[q].column < 0) continue;
-    if (found_[q].column >= static_cast<int>(row.cells.size())) continue;
-    const std::string& cell = row.cells[found_[q].column];
-    if (is_missing_mark(cell)) continue;
-    const std::string number = bare_number(cell);
-    if (!number.empty() && std::string_view("0123456789-.,").find(number.front()) != std::string_view::npos) return;
-    units = true;
-  }
-  if (!units) return;
-  for (std::size_t q = 0; q < quantities_.size(); ++q) {
-    auto& found = found_[q];
-    if (quantities_[q].dimension == Dimension::kText || found.column < 0) continue;
-    const std::string cell =
-        found.column < static_cast<int>(row.cells.size()) ? unit_text(row.cells[found.column]) : "";
-    if (is_missing_mark(cell)) continue;
+  const auto cell_of = [&row](const Column& column) {
+    return column.number < static_cast<int>(row.cells.size()) ? row.cells[column.number] : std::string();
+  };
+  bool units = false, numbers = false;
+  for_each_number_column([&](std::size_t q, std::size_t k) {
+    const std::string cell = cell_of(found_[q].columns[k]);
+    if (is_missing_mark(cell)) return;
+    (looks_like_number(cell) ? numbers : units) = true;
+  });
+  if (!units || numbers) return;
+  for_each_number_column([&](std::size_t q, std::size_t k) {
+    auto& column = found_[q].columns[k];
+    const std::string cell = unit_text(cell_of(column));
+    if (is_missing_mark(cell)) return;
     const auto factor = unit_factor(quantities_[q].dimension, cell);
     if (!factor)
       throw InputError(fmt::format("{}:{}: column '{}': '{}' is neither a number nor a known unit (allowed: {})",
-                                   source_, row.line, column_name(found.column), cell,
+                                   source_, row.line, column_name(column.number), cell,
                                    known_units(quantities_[q].dimension)));
-    if (found.factor && *found.factor != *factor)
+    if (column.factor && *column.factor != *factor)
       throw InputError(fmt::format("{}:{}: column '{}': its header says one unit and the row of units '{}'", source_,
-                                   row.line, column_name(found.column), cell));
-    found.factor = factor;
-  }
+                                   row.line, column_name(column.number), cell));
+    column.factor = factor;
+  });
   rows_.erase(rows_.begin());
+}
+
+void Table::take_stated_units() {
+  for_each_number_column([&](std::size_t q, std::size_t k) {
+    const auto& quantity = quantities_[q];
+    if (quantity.stated_unit.empty()) return;
+    auto& column = found_[q].columns[k];
+    const auto factor = unit_factor(quantity.dimension, quantity.stated_unit);
+    if (!factor)
+      throw InputError(fmt::format("unit '{}' of {} is not known (known: {})", quantity.stated_unit, quantity.names[0],
+                                   known_units(quantity.dimension)));
+    if (column.factor && *column.factor != *factor)
+      throw InputError(fmt::format("{}:{}: column '{}' states its unit, and it is not {}", source_, header_.line,
+                                   column_name(column.number), quantity.stated_unit));
+    column.factor = factor;
+  });
+}
+
+void Table::check_columns(const Quantity& quantity, const Found& found, const std::string& written) const {
+  if (quantity.dimension == Dimension::kText) return;
+  for (const auto& column : found.columns) {
+    if (column.factor) continue;
+    throw InputError(fmt::format("{}:{}: column '{}' has no unit; write {} or add a row of units (known: {})", source_,
+                                 header_.line, column_name(column.number), written, known_units(quantity.dimension)));
+  }
 }
 
 void Table::check_columns() const {
@@ -306,13 +428,8 @@ void Table::check_columns() const {
   for (std::size_t q = 0; q < quantities_.size(); ++q) {
     const auto& quantity = quantities_[q];
     const std::string written = quantity.unit.empty() ? quantity.names[0] : quantity.names[0] + "_" + quantity.unit;
-    if (found_[q].column >= 0) {
-      if (quantity.dimension == Dimension::kText || found_[q].factor) continue;
-      throw InputError(fmt::format("{}:{}: column '{}' has no unit; write {} or add a row of units (known: {})",
-                                   source_, header_.line, column_name(found_[q].column), written,
-                                   known_units(quantity.dimension)));
-    }
-    if (!quantity.required) continue;
+    check_columns(quantity, found_[q], written);
+    if (!found_[q].columns.empty() || !quantity.required) continue;
     if (!found_[q].doubt.empty())
       throw InputError(fmt::format("{}:{}: column '{}' has no known unit; write {} (known: {})", source_, header_.line,
                                    found_[q].doubt, written, known_units(quantity.dimension)));
@@ -338,23 +455,23 @@ void Table::check_cells() {
     row.cells.resize(columns);
   }
   decide_decimal_mark();
-  for (const auto& row : rows_)
-    for (std::size_t q = 0; q < quantities_.size(); ++q)
-      if (quantities_[q].dimension != Dimension::kText && found_[q].column >= 0 &&
-          !is_missing_mark(row.cells[found_[q].column]))
-        parse_number(row, found_[q].column);
+  for (const auto& row : rows_) {
+    for_each_number_column([&](std::size_t q, std::size_t k) {
+      const int column = found_[q].columns[k].number;
+      if (!is_missing_mark(row.cells[column])) parse_number(row, column);
+    });
+  }
 }
 
 void Table::decide_decimal_mark() {
   std::string point, comma;  // where a decimal point and a decimal comma stand beyond doubt
   bool three_after_comma = false, three_after_point = false;
   for (const auto& row : rows_) {
-    for (std::size_t q = 0; q < quantities_.size(); ++q) {
-      if (quantities_[q].dimension == Dimension::kText || found_[q].column < 0) continue;
-      const std::string& cell = row.cells[found_[q].column];
+    for_each_number_column([&](std::size_t q, std::size_t k) {
+      const int column = found_[q].columns[k].number;
+      const std::string& cell = row.cells[column];
       const std::string number = bare_number(cell);
-      const std::string place =
-          fmt::format("line {}, column '{}': '{}'", row.line, column_name(found_[q].column), cell);
+      const std::string place = fmt::format("line {}, column '{}': '{}'", row.line, column_name(column), cell);
       switch (mark_of(number)) {
         case Mark::kPoint:
           if (point.empty()) point = place;
@@ -368,7 +485,7 @@ void Table::decide_decimal_mark() {
         case Mark::kNone:
           break;
       }
-    }
+    });
   }
   if (!point.empty() && !comma.empty())
     throw InputError(fmt::format("{}: decimal commas and decimal points are mixed ({}; {})", source_, comma, point));
@@ -396,23 +513,32 @@ const Table::Found& Table::found(const std::string& name) const {
   throw std::invalid_argument("no such quantity: " + name);
 }
 
+std::string Table::column_name(int column) const {
+  return header_.cells[column].empty() ? std::to_string(column + 1) : header_.cells[column];
+}
+
 std::string Table::where(int row) const {
   return fmt::format("{}:{}", source_, rows_[row].line);
 }
 
-bool Table::has(const std::string& name) const {
-  return found(name).column >= 0;
+int Table::count(const std::string& name) const {
+  return static_cast<int>(found(name).columns.size());
 }
 
-std::optional<double> Table::number(int row, const std::string& name) const {
-  const Found& column = found(name);
-  if (column.column < 0 || is_missing_mark(rows_[row].cells[column.column])) return std::nullopt;
-  return parse_number(rows_[row], column.column) * column.factor.value_or(1);
+std::string Table::label(const std::string& name, int which) const {
+  return found(name).columns[which].label;
+}
+
+std::optional<double> Table::number(int row, const std::string& name, int which) const {
+  const auto& columns = found(name).columns;
+  if (which >= static_cast<int>(columns.size()) || is_missing_mark(rows_[row].cells[columns[which].number]))
+    return std::nullopt;
+  return parse_number(rows_[row], columns[which].number) * columns[which].factor.value_or(1);
 }
 
 std::string Table::text(int row, const std::string& name) const {
-  const Found& column = found(name);
-  return column.column < 0 ? "" : rows_[row].cells[column.column];
+  const auto& columns = found(name).columns;
+  return columns.empty() ? "" : rows_[row].cells[columns[0].number];
 }
 
 std::vector<std::string> Table::other_columns() const {
@@ -421,4 +547,4 @@ std::vector<std::string> Table::other_columns() const {
   return names;
 }
 
-}  // namespace strandlab::bondline
+}  // namespace strandlab::table

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "strandlab/bondline/units.hpp"
+#include "strandlab/table/units.hpp"
 
-namespace strandlab::bondline {
+namespace strandlab::table {
 
 // A column to look for. Its unit stands in the header ("t1_mm", "t1 (in)", "t1 [mm]") or in a row of units below it.
 struct Quantity {
@@ -18,13 +18,18 @@ struct Quantity {
   Dimension dimension = Dimension::kText;
   std::string unit;  // our unit, for messages
   bool required = true;
+  // Tables of instruments without a fixed form:
+  bool several = false;        // any number of columns, told apart by labels; the header may hold further words
+  std::vector<int> columns{};  // where they stand, 1 the first, in place of a search by name
+  std::string stated_unit{};   // unit of columns that state none; a table that states another one is refused
 };
 
 class Table {
  public:
   // Reads a file; `quantities` are the columns to find. Throws InputError (file, line, column, what was given, what is
-  // allowed) for a file that cannot be read, a required column that is missing, appears twice or has no known unit, a
-  // row with too many cells, text where a number belongs, and decimal commas mixed with decimal points.
+  // allowed) for a file that cannot be read, a required column that is missing, appears twice (unless `several`) or has
+  // no known unit, a row with too many cells, text where a number belongs, and decimal commas mixed with decimal
+  // points.
   Table(const std::filesystem::path& file, std::vector<Quantity> quantities);
   // The same for a text in memory; `source` opens the messages.
   Table(const std::string& text, const std::string& source, std::vector<Quantity> quantities);
@@ -32,9 +37,12 @@ class Table {
   int rows() const { return static_cast<int>(rows_.size()); }
   int line(int row) const { return rows_[row].line; }  // 1-based line in the file
   std::string where(int row) const;                    // "file.csv:12"
-  bool has(const std::string& name) const;             // is there a column of that quantity
+  bool has(const std::string& name) const { return count(name) > 0; }
+  int count(const std::string& name) const;  // columns of that quantity
+  // What the header of such a column says besides name and unit: "3" of "Density 3 (kg/m3)".
+  std::string label(const std::string& name, int which) const;
   // Number in our unit; nothing for an empty cell or a mark of a missing value (-, NA, nan).
-  std::optional<double> number(int row, const std::string& name) const;
+  std::optional<double> number(int row, const std::string& name, int which = 0) const;
   // Text of a cell, blanks trimmed; empty where there is no such column.
   std::string text(int row, const std::string& name) const;
 
@@ -47,22 +55,34 @@ class Table {
     int line = 0;
     std::vector<std::string> cells;
   };
-  struct Found {
-    int column = -1;
+  struct Column {
+    int number = 0;                // 0 the first
     std::optional<double> factor;  // our unit per unit of the column
-    std::string doubt;             // header that starts like this quantity but has an unknown unit
+    std::string label;
+  };
+  struct Found {
+    std::vector<Column> columns;
+    std::string doubt;  // header that starts like this quantity but has an unknown unit
   };
   void parse(const std::string& text);
   static std::vector<Row> split(const std::string& text, char delimiter);
   int matches(const Row& header) const;  // number of quantities that a row names
+  bool numbers_at_columns(const Row& row) const;
+  std::size_t find_header(const std::string& text);
+  std::size_t find_header_by_columns(const std::string& text);
   std::vector<Found> find_columns(const Row& header) const;
+  void find_column(const Quantity& quantity, const Row& header, int column, Found& found) const;
   void read_units_row();
+  void take_stated_units();
   void check_columns() const;
+  void check_columns(const Quantity& quantity, const Found& found, const std::string& written) const;
   void check_cells();
   void decide_decimal_mark();
+  template <class Visit>
+  void for_each_number_column(Visit visit) const;
   const Found& found(const std::string& name) const;
   double parse_number(const Row& row, int column) const;
-  std::string column_name(int column) const { return header_.cells[column]; }
+  std::string column_name(int column) const;
 
   std::string source_;
   std::vector<Quantity> quantities_;
@@ -74,4 +94,4 @@ class Table {
   bool decimal_comma_ = false;
 };
 
-}  // namespace strandlab::bondline
+}  // namespace strandlab::table

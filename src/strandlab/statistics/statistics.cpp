@@ -1,4 +1,4 @@
-#include "strandlab/bondline/statistics.hpp"
+#include "strandlab/statistics/statistics.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
@@ -9,7 +9,7 @@
 
 #include "strandlab/core/error.hpp"
 
-namespace strandlab::bondline {
+namespace strandlab::statistics {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -150,4 +150,4 @@ std::vector<Pair> holm_welch_pairs(const std::vector<std::vector<double>>& group
   return pairs;
 }
 
-}  // namespace strandlab::bondline
+}  // namespace strandlab::statistics

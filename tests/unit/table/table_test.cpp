@@ -1,10 +1,10 @@
-#include "strandlab/bondline/table.hpp"
+#include "strandlab/table/table.hpp"
 
 #include <gtest/gtest.h>
 
 #include "strandlab/core/error.hpp"
 
-namespace strandlab::bondline {
+namespace strandlab::table {
 namespace {
 
 std::vector<Quantity> quantities() {
@@ -175,4 +175,4 @@ TEST(Table, UnreadableFiles) {
 }
 
 }  // namespace
-}  // namespace strandlab::bondline
+}  // namespace strandlab::table
