@@ -721,7 +721,7 @@ struct Engine<Dim>::Impl {
     view.surface = surface.data();
     view.fields = table.fields.data();
     view.row_start = table.row_start.data();
-    view.slot = table.slots.data();
+    view.slots = table.slots.data();
     view.friction = options.friction;
     view.platen_friction = options.platen_friction;
     const auto count = static_cast<int>(table.pencils.size());
@@ -1300,7 +1300,7 @@ std::size_t Engine<Dim>::bytes() const {
   }
   const auto& t = impl_->table;
   return total + t.fields.size() * sizeof(PencilField) + t.pencils.size() * sizeof(Pencil) +
-         t.row_start.size() * sizeof(int) + t.slots.size() * sizeof(unsigned short);
+         t.row_start.size() * sizeof(int) + t.slots.size() * sizeof(RowField);
 }
 template <int Dim>
 void Engine<Dim>::write(std::vector<Body<Dim>>& bodies) const {

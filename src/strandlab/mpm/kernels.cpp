@@ -430,11 +430,11 @@ struct Pair {
 };
 
 template <int Dim>
-STRANDLAB_INLINE void find_faces(const PencilField& field, int row, const double* x, const double* surface,
-                                 Meeting<Dim>& m) {
+STRANDLAB_INLINE void find_faces(const PencilField& field, unsigned faces, int row, const double* x,
+                                 const double* surface, Meeting<Dim>& m) {
   m.faces = 0;
-  for (int f = 0; f < field.faces; ++f) {
-    if (row < field.face[f].row_lo || row >= field.face[f].row_hi) continue;
+  for (; faces; faces &= faces - 1) {
+    const int f = __builtin_ctz(faces);
     const double* s = surface + kSurfaceRecord<Dim> * static_cast<long>(field.face[f].base + row);
     const double W = s[Dim];
     if (!(W > 0)) continue;
@@ -467,17 +467,6 @@ STRANDLAB_INLINE bool find_pair(const Meeting<Dim>& a, const Meeting<Dim>& b, do
   if (!best_a || pair.gap > reach) return false;
   for (int d = 0; d < Dim; ++d) pair.n[d] = best_a->N[d] * best_b->W - best_b->N[d] * best_a->W;
   return true;
-}
-
-// Whether the trial velocities would let the faces cross within the step. Needs no normalised normal.
-template <int Dim>
-STRANDLAB_INLINE bool would_cross(const double* va, const double* vb, const Pair<Dim>& pair, double dt) {
-  double approach = 0;
-  for (int d = 0; d < Dim; ++d) approach += (va[d] - vb[d]) * pair.n[d];
-  if (!(approach > 0)) return false;
-  if (pair.gap <= 0) return true;
-  const double reach = approach * dt;
-  return reach * reach > pair.gap * pair.gap * dot<Dim>(pair.n, pair.n);
 }
 
 // Part of an overlap that a step pushes back. At a platen the impulses stop the mean motion of the nodes, not the face
@@ -589,10 +578,12 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
   for (int i = 0; i < real; ++i) {
     const double half_mass = 0.5 * m[i].record[7];
     for (int d = 0; d < Dim; ++d) {
-      // book_energies takes all of dv for the forces' doing
-      result.force_change -= half_mass * (m[i].v[d] - m[i].trial[d]) * (m[i].v[d] - m[i].start[d]);
+      const double change = m[i].v[d] - m[i].trial[d], free = m[i].record[Dim + d];
+      result.kinetic_change += half_mass * change * (2 * free + change);  // momentum_balance booked dv = free
+      result.force_change += half_mass * change * free;
+      result.external_work += 2 * half_mass * frame.dt * frame.gravity[d] * change;
       m[i].record[d] = m[i].v[d];
-      m[i].record[Dim + d] += m[i].v[d] - m[i].trial[d];
+      m[i].record[Dim + d] = free + change;
     }
   }
 }
@@ -627,59 +618,176 @@ STRANDLAB_INLINE bool platen_pair(const Meeting<Dim>& field, const Frame<Dim>& f
   return true;
 }
 
-// v = p/m, dv = dt f/m + dt g. On a roller plane the normal component is zero. A mirror image feels gravity reversed.
+// A node record before the update, {m, p, f, ...}, as {p, f, ...} and as {f, ...}.
 template <int Dim>
-STRANDLAB_INLINE void advance_nodes(const PencilField::Rows& rows, const bool (&on_wall)[Dim], double gravity_sign,
-                                    const Frame<Dim>& frame, double* nodes) {
-  for (int row = rows.row_lo; row < rows.row_hi; ++row) {
-    double* r = nodes + kRecord * static_cast<long>(rows.base + row);
-    const double mass = r[0];
-    if (!(mass > 0)) continue;
-    const double inverse = 1 / mass;
-    double v[Dim], dv[Dim];
-    for (int d = 0; d < Dim; ++d) {
-      const double g = d == Dim - 1 ? gravity_sign * frame.gravity[d] : frame.gravity[d];
-      v[d] = r[1 + d] * inverse;
-      dv[d] = frame.dt * (r[1 + Dim + d] * inverse + g);
-      if (on_wall[d]) v[d] = dv[d] = 0;
-    }
-    for (int d = 0; d < Dim; ++d) {
-      r[d] = v[d] + dv[d];
-      r[Dim + d] = dv[d];
-    }
-    r[7] = mass;
+STRANDLAB_INLINE Pack momentum_and_force(const Pack& r) {
+  const Pack zero{};
+  if constexpr (Dim == 2)
+    return __builtin_shufflevector(r, zero, 1, 2, 3, 4, 8, 8, 8, 8);
+  else
+    return __builtin_shufflevector(r, zero, 1, 2, 3, 4, 5, 6, 8, 8);
+}
+template <int Dim>
+STRANDLAB_INLINE Pack second_vector(const Pack& r) {
+  const Pack zero{};
+  if constexpr (Dim == 2)
+    return __builtin_shufflevector(r, zero, 2, 3, 8, 8, 8, 8, 8, 8);
+  else
+    return __builtin_shufflevector(r, zero, 3, 4, 5, 8, 8, 8, 8, 8);
+}
+
+// What a record is multiplied with and what is added to it: {v, dv} = scale {p, f}/m + gravity.
+struct NodeUpdate {
+  Pack scale, gravity;
+};
+// On a roller plane the normal component is zero. A mirror image feels gravity reversed.
+template <int Dim>
+STRANDLAB_INLINE NodeUpdate node_update(const Pencil& pencil, const Frame<Dim>& frame, double gravity_sign) {
+  NodeUpdate u{};
+  for (int d = 0; d < Dim; ++d) {
+    const bool on_wall = d < Dim - 1 && (pencil.index[d] == frame.wall[d][0] || pencil.index[d] == frame.wall[d][1]);
+    if (on_wall) continue;
+    u.scale[d] = 1;
+    u.scale[Dim + d] = frame.dt;
+    u.gravity[Dim + d] = frame.dt * frame.gravity[d] * (d == Dim - 1 ? gravity_sign : 1);
+  }
+  return u;
+}
+
+// v = p/m + dv, dv = dt f/m + dt g: the record becomes {v, dv, ..., m}. Returns sum m {v^2, dv^2} of the nodes and adds
+// sum m {v, dv} to `momentum`.
+template <int Dim>
+STRANDLAB_INLINE Pack advance_nodes(const PencilField::Rows& rows, const NodeUpdate& update, double* nodes,
+                                    Pack& momentum) {
+  Pack squares{};
+  double* r = nodes + kRecord * static_cast<long>(rows.base + rows.row_lo);
+  for (int row = rows.row_lo; row < rows.row_hi; ++row, r += kRecord) {
+    const Pack record = load(r);
+    const double mass = record[0];
+    const double inverse = mass > 0 ? 1 / mass : 0;
+    const Pack before =
+        momentum_and_force<Dim>(record) * inverse * update.scale + (mass > 0 ? 1.0 : 0.0) * update.gravity;
+    Pack after = before + second_vector<Dim>(before);
+    momentum += mass * after;
+    squares += mass * after * after;
+    after[7] = mass;
+    store(r, after);
+  }
+  return squares;
+}
+
+// Momentum balance at the nodes of a field and of its mirror images on a pencil, and its energies before contact: 1/2
+// sum m |dv|^2, of which lumping the mass costs a part when the particles take up dv, and the work of gravity on the
+// step's mean velocity.
+template <int Dim>
+STRANDLAB_INLINE void momentum_balance(const PencilField& field, const NodeUpdate& update,
+                                       const NodeUpdate& image_update, const Frame<Dim>& frame,
+                                       const GridView<Dim>& grid, PencilResult& result) {
+  Pack momentum{}, ignored{};
+  const Pack squares = advance_nodes<Dim>({field.base, field.row_lo, field.row_hi}, update, grid.nodes, momentum);
+  for (int k = 0; k < 2; ++k) advance_nodes<Dim>(field.mirror[k], image_update, grid.nodes, ignored);
+  for (int d = 0; d < Dim; ++d) {
+    result.kinetic_change += 0.5 * squares[Dim + d];
+    result.force_change += 0.5 * squares[Dim + d];
+    result.external_work += momentum[d] * frame.dt * frame.gravity[d];
   }
 }
 
-// Momentum balance at the nodes of a field and of its mirror images on a pencil.
+// Pairs of bodies that meet alone at a node, eight at a time.
 template <int Dim>
-STRANDLAB_INLINE void momentum_balance(const Pencil& pencil, const PencilField& field, const Frame<Dim>& frame,
-                                       const GridView<Dim>& grid) {
-  bool on_wall[Dim] = {};
-  for (int a = 0; a < Dim - 1; ++a)
-    on_wall[a] = pencil.index[a] == frame.wall[a][0] || pencil.index[a] == frame.wall[a][1];
-  advance_nodes<Dim>({field.base, field.row_lo, field.row_hi}, on_wall, 1, frame, grid.nodes);
-  for (int k = 0; k < 2; ++k) advance_nodes<Dim>(field.mirror[k], on_wall, -1, frame, grid.nodes);
+struct Encounters {
+  int count = 0;
+  double *a[kBlock], *b[kBlock];      // records of the two fields
+  alignas(64) double n[Dim][kBlock];  // from a to b, not normalised
+  alignas(64) double gap[kBlock];
+};
+
+template <int Dim>
+STRANDLAB_INLINE void add(double* a, double* b, const Pair<Dim>& pair, Encounters<Dim>& e) {
+  const int l = e.count++;
+  e.a[l] = a;
+  e.b[l] = b;
+  for (int d = 0; d < Dim; ++d) e.n[d][l] = pair.n[d];
+  e.gap[l] = pair.gap;
 }
 
-// Energies of a field's nodes after the update: 1/2 sum m |dv|^2, of which lumping the mass costs a part when the
-// particles take up dv, and the work of gravity on the mean velocity of the step.
+// contact_pass and resolve for one pair at each node, where one pass is exact.
 template <int Dim>
-STRANDLAB_INLINE void book_energies(const PencilField& field, const Frame<Dim>& frame, const GridView<Dim>& grid,
-                                    PencilResult& result) {
-  for (int row = field.row_lo; row < field.row_hi; ++row) {
-    const double* r = grid.nodes + kRecord * static_cast<long>(field.base + row);
-    const double change = 0.5 * r[7] * dot<Dim>(r + Dim, r + Dim);
-    result.kinetic_change += change;
-    result.force_change += change;
-    for (int d = 0; d < Dim; ++d) result.external_work += r[7] * frame.dt * frame.gravity[d] * r[d];
+STRANDLAB_INLINE void resolve(Encounters<Dim>& e, const Frame<Dim>& frame, double friction, PencilResult& result) {
+  if (e.count == 0) return;
+  const Pack zero{};
+  Pack a[8], b[8], n[Dim], rel[Dim], shear[Dim];
+  Mask real;
+  for (int l = 0; l < kBlock; ++l) {
+    const int k = l < e.count ? l : 0;
+    a[l] = load(e.a[k]);
+    b[l] = load(e.b[k]);
+    real[l] = l < e.count ? -1 : 0;
   }
+  transpose(a);
+  transpose(b);
+  Pack size2{}, vn{};
+  for (int d = 0; d < Dim; ++d) {
+    n[d] = load(e.n[d]);
+    size2 += n[d] * n[d];
+  }
+  const Pack inverse = 1.0 / square_root(select(real, size2, splat(1.0)));
+  for (int d = 0; d < Dim; ++d) {
+    n[d] = select(real, n[d] * inverse, zero);
+    rel[d] = b[d] - a[d];
+    vn += rel[d] * n[d];
+  }
+  const Pack target = select(real, -larger(load(e.gap), zero) / frame.dt, zero);
+  const Pack reduced = a[7] * b[7] / (a[7] + b[7]);
+  const Pack normal = select(real, larger(reduced * (target - vn), zero), zero);
+  if (!any(normal > 0.0)) {
+    e.count = 0;
+    return;
+  }
+  size2 = zero;
+  for (int d = 0; d < Dim; ++d) {
+    shear[d] = -reduced * (rel[d] - vn * n[d]);
+    size2 += shear[d] * shear[d];
+  }
+  const Pack limit = friction * normal;
+  const Pack scale = select(size2 > limit * limit, limit / square_root(larger(size2, splat(1e-300))), splat(1.0));
+  Pack contact{}, rubbed{}, kinetic{}, forces{}, gravity{};
+  for (int d = 0; d < Dim; ++d) {
+    shear[d] *= scale;
+    const Pack impulse = normal * n[d] + shear[d];
+    const Pack change_a = -impulse / a[7], change_b = impulse / b[7];
+    const Pack free_a = a[Dim + d], free_b = b[Dim + d];
+    // Work on the mean relative velocity of the step: what the pair lost.
+    const Pack mean = rel[d] + 0.5 * (change_b - free_b - change_a + free_a);
+    contact += normal * n[d] * mean;
+    rubbed += shear[d] * mean;
+    kinetic += a[7] * change_a * (2.0 * free_a + change_a) + b[7] * change_b * (2.0 * free_b + change_b);
+    forces += a[7] * change_a * free_a + b[7] * change_b * free_b;
+    gravity += frame.gravity[d] * (a[7] * change_a + b[7] * change_b);
+    a[d] += change_a;
+    b[d] += change_b;
+    a[Dim + d] += change_a;
+    b[Dim + d] += change_b;
+  }
+  result.contact -= sum(contact);
+  result.friction -= sum(rubbed);
+  result.kinetic_change += 0.5 * sum(select(real, kinetic, zero));
+  result.force_change += 0.5 * sum(select(real, forces, zero));
+  result.external_work += frame.dt * sum(select(real, gravity, zero));
+  transpose(a);
+  transpose(b);
+  for (int l = 0; l < e.count; ++l) {
+    store(e.a[l], a[l]);
+    store(e.b[l], b[l]);
+  }
+  e.count = 0;
 }
 
-// Contact at the nodes of one row of a pencil, momentum conserving, independent of the order of the bodies.
+// Contact at the nodes of one row of a pencil, momentum conserving, independent of the order of the bodies. Two bodies
+// that meet far from the platens are put into `encounters`, for later.
 template <int Dim>
 STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, const Frame<Dim>& frame,
-                                  const GridView<Dim>& grid, PencilResult& result) {
+                                  const GridView<Dim>& grid, Encounters<Dim>& encounters, PencilResult& result) {
   const double cell = frame.cell[Dim - 1], reach = 0.25 * cell;
   const int begin = grid.row_start[pencil.slots + row - pencil.row_lo];
   const int end = grid.row_start[pencil.slots + row - pencil.row_lo + 1];
@@ -691,10 +799,10 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
   const int least = platen[0] || platen[1] ? 1 : 2;
   if (end - begin < least) return;
   Meeting<Dim> m[3 * kMaxFields];
-  const PencilField* origin[kMaxFields];
+  const RowField* origin[kMaxFields];
   int fields = 0;
   for (int s = begin; s < end; ++s) {
-    const PencilField& field = grid.fields[pencil.field_begin + grid.slot[s]];
+    const PencilField& field = grid.fields[pencil.field_begin + grid.slots[s].field];
     double* record = grid.nodes + kRecord * static_cast<long>(field.base + row);
     if (!(record[7] > 0)) continue;
     if (fields == kMaxFields) {
@@ -702,19 +810,22 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
       break;
     }
     m[fields].record = record;
-    origin[fields++] = &field;
+    origin[fields++] = &grid.slots[s];
   }
   if (fields < least) return;
   const int real = fields;
-  const bool alone = real == 2 && least == 2;  // the usual case: two bodies, nothing else
-  for (int i = 0; i < real; ++i) find_faces<Dim>(*origin[i], row, x, grid.surface, m[i]);
+  const auto field_of = [&](int i) -> const PencilField& { return grid.fields[pencil.field_begin + origin[i]->field]; };
+  for (int i = 0; i < real; ++i) find_faces<Dim>(field_of(i), origin[i]->faces, row, x, grid.surface, m[i]);
   Pair<Dim> pairs[kMaxFields * (kMaxFields + 3) / 2];
+  if (real == 2 && least == 2) {
+    if (find_pair<Dim>(m[0], m[1], reach, pairs[0])) add<Dim>(m[0].record, m[1].record, pairs[0], encounters);
+    return;
+  }
   int count = 0;
   for (int i = 0; i < real; ++i) {
     for (int j = i + 1; j < real; ++j) {
       Pair<Dim>& pair = pairs[count];
       if (!find_pair<Dim>(m[i], m[j], reach, pair)) continue;
-      if (alone && !would_cross<Dim>(m[i].record, m[j].record, pair, frame.dt)) return;
       pair.a = i;
       pair.b = j;
       pair.friction = grid.friction;
@@ -723,7 +834,7 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
     for (int k = 0; k < 2; ++k) {
       Pair<Dim>& pair = pairs[count];
       if (!platen[k] || !platen_pair<Dim>(m[i], frame, k, x[Dim - 1], reach, pair)) continue;
-      if (!has_mirror<Dim>(*origin[i], k, row, grid, m[fields])) continue;
+      if (!has_mirror<Dim>(field_of(i), k, row, grid, m[fields])) continue;
       pair.a = i;
       pair.b = fields++;
       pair.friction = grid.platen_friction;
@@ -737,14 +848,19 @@ template <int Dim>
 void update_grid(const Pencil& pencil, const Frame<Dim>& frame, const GridView<Dim>& grid, bool profile,
                  PencilResult& result) {
   if (pencil.ghost) return;
+  const NodeUpdate update = node_update<Dim>(pencil, frame, 1), image_update = node_update<Dim>(pencil, frame, -1);
   for (int f = pencil.field_begin; f < pencil.field_end; ++f)
-    momentum_balance<Dim>(pencil, grid.fields[f], frame, grid);
+    momentum_balance<Dim>(grid.fields[f], update, image_update, frame, grid, result);
   Lap lap(profile);
   double x[Dim];
   for (int a = 0; a < Dim - 1; ++a) x[a] = frame.origin[a] + pencil.index[a] * frame.cell[a];
-  for (int row = pencil.row_lo; row < pencil.row_hi; ++row) contact_row<Dim>(pencil, row, x, frame, grid, result);
+  Encounters<Dim> encounters;
+  for (int row = pencil.row_lo; row < pencil.row_hi; ++row) {
+    contact_row<Dim>(pencil, row, x, frame, grid, encounters, result);
+    if (encounters.count == kBlock) resolve<Dim>(encounters, frame, grid.friction, result);
+  }
+  resolve<Dim>(encounters, frame, grid.friction, result);
   lap(result.contact_ticks);
-  for (int f = pencil.field_begin; f < pencil.field_end; ++f) book_energies<Dim>(grid.fields[f], frame, grid, result);
 }
 
 // ---------------------------------------------------------------------------------------------- grid to particles

@@ -114,13 +114,19 @@ struct Pencil {
   int ghost;                   // behind a roller plane: folded onto its mirror image
 };
 
+// A field whose window holds a row of a pencil.
+struct RowField {
+  unsigned short field;  // relative to the pencil's first
+  unsigned short faces;  // bit f: the rows of its face f hold this row
+};
+
 template <int Dim>
 struct GridView {
   double* nodes;
   double* surface;
   const PencilField* fields;
-  const int* row_start;        // per pencil row: range in `slot`
-  const unsigned short* slot;  // fields (relative to the pencil's first) whose windows hold that row
+  const int* row_start;  // per pencil row: range in `slots`
+  const RowField* slots;
   double friction, platen_friction;
 };
 

@@ -125,9 +125,12 @@ void add_rows(Pencil& pencil, PencilTable& table) {
   for (int row = pencil.row_lo; row < pencil.row_hi; ++row) {
     table.row_start.push_back(static_cast<int>(table.slots.size()));
     for (int f = pencil.field_begin; f < pencil.field_end; ++f) {
-      if (row >= table.fields[f].row_lo && row < table.fields[f].row_hi) {
-        table.slots.push_back(static_cast<unsigned short>(f - pencil.field_begin));
-      }
+      const PencilField& field = table.fields[f];
+      if (row < field.row_lo || row >= field.row_hi) continue;
+      unsigned faces = 0;
+      for (int k = 0; k < field.faces; ++k)
+        faces |= static_cast<unsigned>(row >= field.face[k].row_lo && row < field.face[k].row_hi) << k;
+      table.slots.push_back({static_cast<unsigned short>(f - pencil.field_begin), static_cast<unsigned short>(faces)});
     }
   }
   table.row_start.push_back(static_cast<int>(table.slots.size()));

@@ -45,7 +45,7 @@ struct PencilTable {
   std::vector<Pencil> pencils;
   std::vector<PencilField> fields;
   std::vector<int> row_start;
-  std::vector<unsigned short> slots;
+  std::vector<RowField> slots;
 };
 
 struct BodyWindows {
