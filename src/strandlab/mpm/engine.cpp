@@ -21,7 +21,8 @@ namespace {
 constexpr int kTileColumns = 32;       // particles of a tile along the strand (2D)
 constexpr int kTileColumns3 = 16;      // and along and across it (3D)
 constexpr int kTimeStepInterval = 32;  // steps between updates of the time step
-constexpr double kMaxDrift = 0.9;      // cells a particle may move before the windows are made again (Extents allows 1)
+constexpr double kMaxDrift = 0.45;     // cells a particle may move before the windows are made again
+constexpr double kWindowDrift = 0.5;   // and what the windows allow
 
 double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -437,27 +438,38 @@ struct Engine<Dim>::Impl {
     return x;
   }
 
-  static std::array<int, 2> pencil_of(const Vec<Dim>& x, const Frame<Dim>& f) {
-    std::array<int, 2> p{0, 0};
-    for (int a = 0; a < Dim - 1; ++a) p[a] = static_cast<int>(std::lround((x[a] - f.origin[a]) * f.inverse_cell[a]));
-    return p;
-  }
-  static int row_of(const Vec<Dim>& x, const Frame<Dim>& f) {
-    return static_cast<int>(std::lround((x[Dim - 1] - f.origin[Dim - 1]) * f.inverse_cell[Dim - 1]));
+  // Nodes that may become a point's nearest before the windows are made again: first and last per axis.
+  static std::array<std::array<int, 3>, 2> nearest_nodes(const Vec<Dim>& x, const Frame<Dim>& f) {
+    std::array<std::array<int, 3>, 2> range{};
+    for (int a = 0; a < Dim; ++a) {
+      const double xi = (x[a] - f.origin[a]) * f.inverse_cell[a];
+      const int axis = a == Dim - 1 ? 2 : a;  // rows last, lateral axes first
+      range[0][axis] = static_cast<int>(std::lround(xi - kWindowDrift));
+      range[1][axis] = static_cast<int>(std::lround(xi + kWindowDrift));
+    }
+    return range;
   }
 
   WindowStore window_over(const std::vector<Vec<Dim>>& points, const Frame<Dim>& f, int start) const {
-    std::array<int, 2> first = pencil_of(points[0], f), last = first;
+    auto [first3, last3] = nearest_nodes(points[0], f);
     for (const auto& x : points) {
-      const auto p = pencil_of(x, f);
+      const auto range = nearest_nodes(x, f);
       for (int a = 0; a < 2; ++a) {
-        first[a] = std::min(first[a], p[a]);
-        last[a] = std::max(last[a], p[a]);
+        first3[a] = std::min(first3[a], range[0][a]);
+        last3[a] = std::max(last3[a], range[1][a]);
       }
     }
-    if (Dim == 3 && first[1] == 0 && last[1] == 0) --first[1];  // the second lateral axis is real in 3D
-    Extents extents(first, last);
-    for (const auto& x : points) extents.add(pencil_of(x, f), row_of(x, f));
+    const std::array<int, 2> first{first3[0], first3[1]}, last{last3[0], last3[1]};
+    Extents extents(first, last);  // in 3D never flat across: from and to differ
+    for (const auto& x : points) {
+      const auto [from, to] = nearest_nodes(x, f);
+      for (int j = from[1]; j <= to[1]; ++j) {
+        for (int i = from[0]; i <= to[0]; ++i) {
+          extents.add({i, j}, from[2]);
+          extents.add({i, j}, to[2]);
+        }
+      }
+    }
     extents.dilate();
     for (int a = 0; a < Dim - 1; ++a) {  // a ghost pencil and its mirror image hold the same rows
       for (int side = 0; side < 2; ++side) {

@@ -11,9 +11,9 @@ namespace strandlab::mpm {
 // Rows of nodes that a set of points may touch, per pencil of its lateral bounding box.
 class Extents {
  public:
-  static constexpr int kReach = 2;  // a stencil reaches one node to each side; one more may be drifted into
+  static constexpr int kReach = 1;  // a stencil reaches one node to each side of the nearest
 
-  Extents(std::array<int, 2> first, std::array<int, 2> last);  // of the points' nearest nodes
+  Extents(std::array<int, 2> first, std::array<int, 2> last);  // of the nodes that may be a point's nearest
   void add(std::array<int, 2> pencil, int row);
   void dilate();                                           // by kReach, laterally and in rows
   void merge(std::array<int, 2> a, std::array<int, 2> b);  // both pencils take the union of their rows
