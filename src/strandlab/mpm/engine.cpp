@@ -70,9 +70,8 @@ struct Engine<Dim>::Impl {
     std::vector<int> particle;         // user's index of each lane, -1 for padding
     std::vector<int> where;            // for each user index: offset of its x in data
     struct FaceData {
-      Face<Dim> points;  // as given
-      std::vector<int> where, mate;
-      AlignedArray offset, area, width;
+      std::vector<int> where;
+      AlignedArray offset, area;
     };
     std::vector<FaceData> faces;
     double particle_volume() const { return spacing.prod(); }
@@ -257,47 +256,31 @@ struct Engine<Dim>::Impl {
     }
   }
 
-  // Two face points whose particles are neighbours in a block, and that are alike, are one point of twice the width: a
-  // strand's face then has one point per cell.
-  static bool alike(const BodyData& body, const Face<Dim>& face, int i, int j) {
-    const int p = body.where[face.particle[i]], q = body.where[face.particle[j]];
-    return q == p + 1 && p % 2 == 0 && face.offset[i] == face.offset[j] && face.area[i] == face.area[j] &&
-           face.offset[i][0] == 0;
-  }
-
   void add_face(const Face<Dim>& face, const std::vector<int>& tile_of, std::size_t tile_count, std::size_t first_tile,
                 BodyData& body) {
     const std::size_t f = body.faces.size();
     body.faces.emplace_back();
     auto& data = body.faces.back();
-    data.points = face;
     std::vector<std::vector<int>> by_tile(tile_count);
     for (std::size_t i = 0; i < face.particle.size(); ++i)
       by_tile[tile_of[face.particle[i]]].push_back(static_cast<int>(i));
-    std::vector<std::array<int, 2>> order;  // -1: padding
+    std::vector<int> order;  // -1: padding
     for (std::size_t t = 0; t < tile_count; ++t) {
       tiles[first_tile + t].face_begin[f] = static_cast<int>(order.size()) / kBlock;
-      for (std::size_t i = 0; i < by_tile[t].size(); ++i) {
-        const int k = by_tile[t][i];
-        const bool pair = i + 1 < by_tile[t].size() && alike(body, face, k, by_tile[t][i + 1]);
-        order.push_back({k, pair ? by_tile[t][++i] : k});
-      }
-      while (order.size() % kBlock) order.push_back({-1, -1});
+      order.insert(order.end(), by_tile[t].begin(), by_tile[t].end());
+      while (order.size() % kBlock) order.push_back(-1);
       tiles[first_tile + t].face_end[f] = static_cast<int>(order.size()) / kBlock;
     }
     data.offset.resize(order.size() * Dim);
     data.area.resize(order.size() * Dim);
-    data.width.resize(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
-      const auto& [first, second] = order[i][0] >= 0 ? order[i] : order[i / kBlock * kBlock];
-      const double width = first == second ? 1 : 2;
-      data.where.push_back(body.where[face.particle[first]]);
-      data.mate.push_back(body.where[face.particle[second]]);
-      data.width[i] = width;
+      const int k = order[i];
+      const int donor = k >= 0 ? k : order[i / kBlock * kBlock];
+      data.where.push_back(body.where[face.particle[donor]]);
       for (int a = 0; a < Dim; ++a) {
         const std::size_t at = (i / kBlock * Dim + a) * kBlock + i % kBlock;
-        data.offset[at] = face.offset[first][a];
-        data.area[at] = order[i][0] >= 0 ? width * face.area[first][a] : 0.0;
+        data.offset[at] = face.offset[donor][a];
+        data.area[at] = k >= 0 ? face.area[k][a] : 0.0;
       }
     }
   }
@@ -428,16 +411,6 @@ struct Engine<Dim>::Impl {
     return s + " mm";
   }
 
-  // Where a point at `offset` from a particle, at formation, is now.
-  static Vec<Dim> on_face(const double* d, const Vec<Dim>& offset) {
-    Vec<Dim> x;
-    for (int a = 0; a < Dim; ++a) {
-      x[a] = d[(C::x + a) * kBlock];
-      for (int b = 0; b < Dim; ++b) x[a] += d[(C::F + a * Dim + b) * kBlock] * offset[b];
-    }
-    return x;
-  }
-
   // Nodes that may become a point's nearest before the windows are made again: first and last per axis.
   static std::array<std::array<int, 3>, 2> nearest_nodes(const Vec<Dim>& x, const Frame<Dim>& f) {
     std::array<std::array<int, 3>, 2> range{};
@@ -515,9 +488,16 @@ struct Engine<Dim>::Impl {
       }
       for (const auto& face : body.faces) {
         points.clear();
-        for (std::size_t i = 0; i < face.points.particle.size(); ++i) {
-          const double* d = body.data.data() + body.where[face.points.particle[i]];
-          points.push_back(on_face(d, face.points.offset[i]));
+        for (std::size_t i = 0; i < face.where.size(); ++i) {
+          const double* d = body.data.data() + face.where[i];
+          Vec<Dim> x;
+          for (int a = 0; a < Dim; ++a) {
+            x[a] = d[(C::x + a) * kBlock];
+            for (int k = 0; k < Dim; ++k) {
+              x[a] += d[(C::F + a * Dim + k) * kBlock] * face.offset[(i / kBlock * Dim + k) * kBlock + i % kBlock];
+            }
+          }
+          points.push_back(x);
         }
         windows[b].faces.push_back(window_over(points, f, surface_records));
         surface_records += windows[b].faces.back().records;
@@ -555,9 +535,8 @@ struct Engine<Dim>::Impl {
       v.faces = static_cast<int>(body.faces.size());
       for (int f = 0; f < v.faces; ++f) {
         windows[b].faces[f].window.base = windows[b].faces[f].base.data();
-        const auto& face = body.faces[f];
-        v.face[f] = {windows[b].faces[f].window, face.where.data(), face.mate.data(),
-                     face.offset.data(),         face.area.data(),  face.width.data()};
+        v.face[f] = {windows[b].faces[f].window, body.faces[f].where.data(), body.faces[f].offset.data(),
+                     body.faces[f].area.data()};
       }
       views.push_back(v);
     }
@@ -863,9 +842,10 @@ struct Engine<Dim>::Impl {
   PointStencil<Dim> face_stencil(const BodyData& body, const double* d, const Vec<Dim>& offset,
                                  const Frame<Dim>& f) const {
     PointStencil<Dim> s;
-    const Vec<Dim> x = on_face(d, offset);
     for (int a = 0; a < Dim; ++a) {
-      const double xi = (x[a] - f.origin[a]) * f.inverse_cell[a];
+      double x = d[(C::x + a) * kBlock];
+      for (int b = 0; b < Dim; ++b) x += d[(C::F + a * Dim + b) * kBlock] * offset[b];
+      const double xi = (x - f.origin[a]) * f.inverse_cell[a];
       s.node[a] = static_cast<int>(std::lround(xi));
       const double width = (0.5 * body.spacing[a] - std::abs(offset[a])) * std::abs(d[(C::F + a * Dim + a) * kBlock]) *
                            f.inverse_cell[a];
@@ -888,11 +868,17 @@ struct Engine<Dim>::Impl {
       for (std::size_t k = 0; k < body.faces.size(); ++k) {
         const double* t = tractions.data() + (b * kMaxFaces + k) * Dim;
         if (std::all_of(t, t + Dim, [](double v) { return v == 0; })) continue;
-        const auto& face = body.faces[k].points;
-        for (std::size_t i = 0; i < face.particle.size(); ++i) {
-          const double* d = body.data.data() + body.where[face.particle[i]];
-          const auto s = face_stencil(body, d, face.offset[i], f);
-          const double size = face.area[i].norm();
+        const auto& face = body.faces[k];
+        for (std::size_t i = 0; i < face.where.size(); ++i) {
+          Vec<Dim> offset, area;
+          for (int a = 0; a < Dim; ++a) {
+            const std::size_t at = (i / kBlock * Dim + a) * kBlock + i % kBlock;
+            offset[a] = face.offset[at];
+            area[a] = face.area[at];
+          }
+          const double size = area.norm();
+          if (size == 0) continue;  // padding
+          const auto s = face_stencil(body, body.data.data() + face.where[i], offset, f);
           each_node(windows[b].field, s, [&](std::size_t record, double w) {
             if (w > 0) visit(record * kRecord, t, w * size);
           });
@@ -1322,7 +1308,7 @@ std::size_t Engine<Dim>::bytes() const {
   for (const auto& body : impl_->bodies) {
     total += body.data.bytes() + body.lanes.size() + (body.particle.size() + body.where.size()) * sizeof(int);
     for (const auto& face : body.faces)
-      total += 2 * face.where.size() * sizeof(int) + face.offset.bytes() + face.area.bytes() + face.width.bytes();
+      total += face.where.size() * sizeof(int) + face.offset.bytes() + face.area.bytes();
   }
   const auto& t = impl_->table;
   return total + t.fields.size() * sizeof(PencilField) + t.pencils.size() * sizeof(Pencil) +

@@ -302,18 +302,12 @@ STRANDLAB_INLINE void scatter_surface(const SurfaceView<Dim>& face, int pack, co
                                       const Frame<Dim>& frame, double* surface) {
   constexpr int kSize = kSurfaceRecord<Dim>;
   Pack x[Dim], F[Dim * Dim], offset[Dim], area[Dim];
-  const int *where = face.where + pack * kBlock, *mate = face.mate + pack * kBlock;
-  // A strand's top or bottom: neighbours two by two in two blocks.
-  const bool paired = mate[3] - where[0] == kBlock - 1 && mate[7] - where[4] == kBlock - 1;
+  const int* where = face.where + pack * kBlock;
+  const bool contiguous = where[kBlock - 1] - where[0] == kBlock - 1;  // a strand's top or bottom: one block
   const auto collect = [&](int component) {
-    const double* from = body.blocks + component * kBlock;
-    if (paired) {
-      const Pack u = load(from + where[0]), v = load(from + where[4]);
-      return 0.5 * (__builtin_shufflevector(u, v, 0, 2, 4, 6, 8, 10, 12, 14) +
-                    __builtin_shufflevector(u, v, 1, 3, 5, 7, 9, 11, 13, 15));
-    }
+    if (contiguous) return load(body.blocks + where[0] + component * kBlock);
     alignas(64) double lane[kBlock];
-    for (int l = 0; l < kBlock; ++l) lane[l] = 0.5 * (from[where[l]] + from[mate[l]]);
+    for (int l = 0; l < kBlock; ++l) lane[l] = body.blocks[where[l] + component * kBlock];
     return load(lane);
   };
   for (int a = 0; a < Dim; ++a) x[a] = collect(a);
@@ -322,7 +316,6 @@ STRANDLAB_INLINE void scatter_surface(const SurfaceView<Dim>& face, int pack, co
   load_packs(face.area + static_cast<long>(pack) * Dim * kBlock, area);
   Pack stretch[Dim], N[Dim];
   diagonal<Dim>(F, stretch);
-  stretch[0] *= load(face.width + static_cast<long>(pack) * kBlock);
   current_area(F, area, N);
   Pack size2{}, along{};
   for (int a = 0; a < Dim; ++a) {

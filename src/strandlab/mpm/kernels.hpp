@@ -53,13 +53,9 @@ struct Window {
 template <int Dim>
 struct SurfaceView {
   Window window;
-  // A face point rides on the mean of two neighbouring particles (or twice on one): offsets of their x components in
-  // the body's blocks.
-  const int* where;
-  const int* mate;
+  const int* where;      // particle of each face point: offset of its x component in the body's blocks
   const double* offset;  // packs: Dim components of 8 face points, then the next 8
-  const double* area;    // likewise
-  const double* width;   // packs: of the point along the strand, over that of a particle
+  const double* area;
 };
 
 template <int Dim>
