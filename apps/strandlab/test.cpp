@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <memory>
 
@@ -77,20 +78,41 @@ void write_plots(const Journey& journey, const std::vector<report::PanelModulus>
   }
 }
 
+// Which faces are glued is a choice of the case (glue.max_gap_mm): how much the moduli hang on it, with the softest
+// glue. Null when half the gap connects nothing.
+Json gap_sensitivity(const Panel<2>& panel, vtest::Options options, double compaction, Console& console) {
+  auto& compliances = options.compliance_t_mm_per_MPa;
+  compliances = {*std::max_element(compliances.begin(), compliances.end())};
+  const double gap = options.curing.max_gap_mm;
+  try {
+    const auto s = vtest::gap_sensitivity(panel, options);
+    console.say(fmt::format(
+        "test: compaction {}: glue.max_gap_mm = {} changes moduli by at most {:+.1f} % (1/D_t = {}), {} by {:+.1f} %",
+        compaction, gap / 2, 100 * s.halved, compliances[0], gap * 2, 100 * s.doubled));
+    return {{"compliance_t_mm_per_MPa", compliances[0]}, {"gap_halved", s.halved}, {"gap_doubled", s.doubled}};
+  } catch (const InputError& error) {
+    console.warn(fmt::format("compaction {}: with glue.max_gap_mm = {} the panel cannot be tested: {}", compaction,
+                             gap / 2, error.what()));
+    return nullptr;
+  }
+}
+
 void test_state(Journey& journey, const Panel<2>& panel, double compaction, Console& console) {
   auto& folder = journey.folder;
   const auto begin = std::chrono::steady_clock::now();
   const auto result = vtest::measure(panel, journey.c.test);
   for (const auto& warning : result.warnings) console.warn(fmt::format("compaction {}: {}", compaction, warning));
-  auto& states = folder.record(io::Step::kTest)["states"];
-  states.push_back(to_json(compaction, result, seconds_since(begin)));
-  report::moduli_table(moduli_of(states)).write(folder.file("moduli.csv"));
-  folder.save();
   for (std::size_t i = 0; i < std::min(result.moduli.size(), journey.c.test.kinds.size()); ++i) {
     const auto& m = result.moduli[i];
     console.say(fmt::format("test: compaction {}, {}, 1/D_t = {}: {:.0f} MPa", compaction, vtest::name(m.kind),
                             m.compliance_t_mm_per_MPa, m.modulus_MPa));
   }
+  auto state = to_json(compaction, result, seconds_since(begin));
+  state["gap_sensitivity"] = gap_sensitivity(panel, journey.c.test, compaction, console);
+  auto& states = folder.record(io::Step::kTest)["states"];
+  states.push_back(state);
+  report::moduli_table(moduli_of(states)).write(folder.file("moduli.csv"));
+  folder.save();
 }
 
 void test_alone(const CaseArguments& arguments) {

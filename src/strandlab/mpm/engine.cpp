@@ -1030,6 +1030,7 @@ struct Engine<Dim>::Impl {
       const int column = s.node[0] - 1 + i - w.window.first[0];
       const int across = Dim == 2 ? 0 : s.node[Dim - 2] - 1 + k - w.window.first[1];
       const double weight = s.axis[0].w[i] * (Dim == 2 ? 1.0 : s.axis[Dim - 2].w[k]);
+      if (weight == 0) continue;  // the window may end here
       const int base = w.base[across * w.window.count[0] + column] + s.node[Dim - 1] - 1;
       for (int j = 0; j < 3; ++j) visit(static_cast<std::size_t>(base + j), weight * s.axis[Dim - 1].w[j]);
     }
