@@ -16,6 +16,8 @@ void add_run(CLI::App& app);
 void add_theory(CLI::App& app);
 void add_bondline(CLI::App& app);
 void add_profile(CLI::App& app);
+void add_report(CLI::App& app);
+void add_movie(CLI::App& app);
 void add_bench(CLI::App& app);
 
 }  // namespace strandlab::app

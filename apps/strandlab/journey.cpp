@@ -1,9 +1,11 @@
 #include "journey.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <ctime>
 #include <exception>
 #include <fstream>
 #include <sstream>
@@ -50,6 +52,8 @@ Journey start(const CaseArguments& arguments, io::Step first) {
   io::RunFolder folder(arguments.run_folder(c), c, first, arguments.force, disk_bytes);
   folder.record()["strandlab"] = version();
   folder.record()["git"] = kGitHash;
+  if (!folder.record().contains("date"))
+    folder.record()["date"] = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
   folder.record()["seed"] = c.seed;
   folder.record()["machine"] = machine();
   return {std::move(c), std::move(mat), std::move(panel), std::move(folder)};

@@ -45,6 +45,8 @@ int run(int argc, char** argv) {
   strandlab::app::add_press(app);
   strandlab::app::add_test(app);
   strandlab::app::add_run(app);
+  strandlab::app::add_report(app);
+  strandlab::app::add_movie(app);
   strandlab::app::add_theory(app);
   strandlab::app::add_bondline(app);
   strandlab::app::add_profile(app);

@@ -15,6 +15,7 @@
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/io/vtk.hpp"
 #include "strandlab/report/density_profiles.hpp"
+#include "strandlab/report/frames.hpp"
 #include "strandlab/report/morphology.hpp"
 #include "strandlab/report/plots.hpp"
 #include "strandlab/report/result_tables.hpp"
@@ -42,6 +43,10 @@ press::Sink<2> make_sink(const Journey& journey, const io::CheckpointStore& stor
     io::write_panel(panel, hash, folder.panel_file(compaction));
     io::write_vtu(panel, folder.paraview_file(compaction));
     console.say(fmt::format("press: panel at compaction {} kept", compaction));
+  };
+  sink.frames = report::kFrames;
+  sink.frame = [&folder, hash](const Panel<2>& panel, int index) {
+    io::write_panel(report::frame_of(panel), hash, folder.frame_file(index));
   };
   sink.checkpoint = [&folder, &store](const press::Checkpoint<2>& checkpoint) {
     report::press_table(checkpoint.records).write(folder.file("press.csv"));
@@ -187,7 +192,7 @@ void do_press(Journey& journey, Console& console) {
                      : fmt::format("press: {} particles on {} thread(s)", particles, threads));
   folder.record(io::Step::kPress)["started"] = true;
   folder.save();
-  for (const auto* name : {"panels", "paraview", "pictures"}) fs::create_directories(folder.file(name));
+  for (const auto* name : {"panels", "frames", "paraview", "pictures"}) fs::create_directories(folder.file(name));
 
   const auto setup = press::setup(journey.panel, journey.c.grid, journey.c.sides, engine_options(journey.c));
   const auto outcome =

@@ -35,6 +35,7 @@ def results(folder):
     kept = {name: pathlib.Path(folder, name).read_bytes() for name in RESULTS}
     kept.update({p.name: p.read_bytes() for p in pathlib.Path(folder, "paraview").iterdir()})
     kept.update({p.name: p.read_bytes() for p in pathlib.Path(folder, "panels").iterdir()})
+    kept.update({p.name: p.read_bytes() for p in pathlib.Path(folder, "frames").iterdir()})
     return kept
 
 

@@ -34,7 +34,8 @@ std::vector<std::string> results_of(Step step) {
   if (step == Step::kMat) return {"mat.json"};
   if (step == Step::kPress) {
     return {"press.csv",     "morphology.csv",         "histograms.csv", "profile.csv", "profile_summary.csv",
-            "checkpoint.h5", "checkpoint.previous.h5", "panels",         "paraview",    "pictures"};
+            "checkpoint.h5", "checkpoint.previous.h5", "panels",         "frames",      "paraview",
+            "pictures"};
   }
   return {"moduli.csv", "theory.csv", "plots"};
 }
@@ -170,6 +171,9 @@ fs::path RunFolder::panel_file(double compaction) const {
 }
 fs::path RunFolder::paraview_file(double compaction) const {
   return folder_ / "paraview" / fmt::format("panel_{}.vtu", compaction);
+}
+fs::path RunFolder::frame_file(int index) const {
+  return folder_ / "frames" / fmt::format("frame_{:02}.h5", index);
 }
 fs::path RunFolder::picture_file(const std::string& what, double compaction) const {
   return folder_ / "pictures" / fmt::format("{}_{}.png", what, compaction);

@@ -61,6 +61,8 @@ class Press {
     // A snapshot can fall inside a step; the step is shortened to nothing else, so the state is kept at the first step
     // at or beyond the requested compaction.
     transit_s_ = transit_time();
+    // A checkpoint is written after the frames up to its compaction.
+    while (resume && next_frame_ <= sink.frames && compaction() >= frame_compaction(next_frame_)) ++next_frame_;
   }
 
   Outcome<Dim> run() {
@@ -68,10 +70,12 @@ class Press {
     double last_checkpoint = start, last_progress = start;
     long long checked_steps = 0;
     const long long first_step = engine_->state().step;
+    keep_frames();
     keep_snapshots();
     try {
       while (state_.snapshots_done < static_cast<int>(schedule_.compactions.size())) {
         advance();
+        keep_frames();
         keep_snapshots();
         if (++checked_steps % 32 != 0) continue;
         const double now = wall_clock();
@@ -181,6 +185,20 @@ class Press {
     last_good_ = checkpoint();
   }
 
+  double frame_compaction(int index) const {
+    return schedule_.compactions.back() * index / std::max(1, sink_.frames) - 1e-12;
+  }
+
+  // A mat that is not pressed has one frame.
+  void keep_frames() {
+    if (!sink_.frame) return;
+    const int last = schedule_.compactions.back() > 0 ? sink_.frames : 0;
+    while (next_frame_ <= last && compaction() >= frame_compaction(next_frame_)) {
+      engine_->write(state_.panel);
+      sink_.frame(state_.panel, next_frame_++);
+    }
+  }
+
   void keep_snapshots() {
     while (state_.snapshots_done < static_cast<int>(schedule_.compactions.size()) &&
            compaction() >= schedule_.compactions[state_.snapshots_done] - 1e-12) {
@@ -236,6 +254,7 @@ class Press {
   std::optional<mpm::Engine<Dim>> engine_;
   std::optional<Checkpoint<Dim>> last_good_;
   double ramp_s_ = 0, transit_s_ = 0;
+  int next_frame_ = 0;
 };
 
 }  // namespace

@@ -56,7 +56,11 @@ template <int Dim>
 struct Sink {
   std::function<void(const Panel<Dim>&, int index)> snapshot;  // at compactions[index]
   std::function<void(const Checkpoint<Dim>&)>
-      checkpoint;                                 // every checkpoint_interval_s of wall time and at each snapshot
+      checkpoint;  // every checkpoint_interval_s of wall time and at each snapshot
+  // Frames of a film: frame k of 0..frames is the first state at or beyond k/frames of the last compaction. After a
+  // resume the frames beyond the checkpoint are handed over again, with the same bits.
+  std::function<void(const Panel<Dim>&, int index)> frame;
+  int frames = 0;
   std::function<void(const Progress&)> progress;  // a few times a second
   double checkpoint_interval_s = 30;
 };

@@ -189,5 +189,39 @@ TEST(Record, BalanceIsWorkMinusAllTerms) {
   EXPECT_DOUBLE_EQ(r.internal_mJ(), 7);
 }
 
+// Frames come at even compactions, do not change the pressing, and those beyond a checkpoint come again after a resume.
+TEST(Frames, AreEvenAndComeAgainAfterAResume) {
+  const auto panel = rows(2, 2 * kRow);
+  const auto schedule = schedule_to({0, 0.03, 0.08});
+  const auto setup = small_setup(panel);
+  const auto plain = press::press<2>(panel, schedule, setup, {});
+  std::vector<Panel<2>> frames;
+  std::vector<press::Checkpoint<2>> checkpoints;
+  press::Sink<2> sink;
+  sink.frames = 8;
+  sink.frame = [&](const Panel<2>& p, int index) {
+    EXPECT_EQ(index, static_cast<int>(frames.size()));
+    frames.push_back(p);
+  };
+  sink.checkpoint = [&](const press::Checkpoint<2>& c) { checkpoints.push_back(c); };
+  const auto filmed = press::press<2>(panel, schedule, setup, sink);
+  ASSERT_EQ(frames.size(), 9U);
+  EXPECT_EQ(filmed.steps, plain.steps);
+  EXPECT_EQ(filmed.records.back().stress_MPa, plain.records.back().stress_MPa);
+  const double step = 1.5 * 0.08 / static_cast<double>(filmed.steps);  // compaction of one time step at full speed
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    EXPECT_GE(frames[k].compaction(), 0.01 * static_cast<double>(k) - 1e-9);
+    EXPECT_LE(frames[k].compaction(), 0.01 * static_cast<double>(k) + step);
+  }
+  ASSERT_GE(checkpoints.size(), 2U);  // at the snapshots: the second is at 3 %
+  std::vector<int> again;
+  sink.frame = [&](const Panel<2>& p, int index) {
+    again.push_back(index);
+    EXPECT_EQ(p.strands[1].x, frames[static_cast<std::size_t>(index)].strands[1].x) << "frame " << index;
+  };
+  press::press<2>(panel, schedule, setup, sink, checkpoints[1]);
+  EXPECT_EQ(again, (std::vector<int>{4, 5, 6, 7, 8}));
+}
+
 }  // namespace
 }  // namespace strandlab

@@ -1,0 +1,37 @@
+// strandlab report: report.html of a run folder.
+#include "report.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "commands.hpp"
+#include "strandlab/core/atomic_file.hpp"
+#include "strandlab/core/error.hpp"
+#include "strandlab/report/html.hpp"
+#include "strandlab/report/report_data.hpp"
+
+namespace strandlab::app {
+
+std::filesystem::path write_report_page(const std::filesystem::path& run_folder, const std::filesystem::path& out) {
+  const auto page = report::empty_page();
+  const auto file = out.empty() ? run_folder / "report.html" : out;
+  write_atomically(file, report::filled_page(page, report::report_data(run_folder)));
+  return file;
+}
+
+void add_report(CLI::App& app) {
+  struct Arguments {
+    std::string folder, out;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  auto* command = app.add_subcommand("report", "make report.html of a run folder again");
+  command->add_option("DIR", arguments->folder, "run folder")->required();
+  command->add_option("-o,--output", arguments->out, "file to write (default: report.html in the run folder)");
+  command->callback(
+      [arguments] { fmt::print("report: {}\n", write_report_page(arguments->folder, arguments->out).string()); });
+}
+
+}  // namespace strandlab::app

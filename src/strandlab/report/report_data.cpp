@@ -1,0 +1,126 @@
+#include "strandlab/report/report_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "strandlab/core/error.hpp"
+#include "strandlab/io/case.hpp"
+#include "strandlab/io/checkpoint.hpp"
+#include "strandlab/report/frames.hpp"
+
+namespace strandlab::report {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr std::array kTables{"press.csv",      "moduli.csv",  "theory.csv", "morphology.csv",
+                             "histograms.csv", "profile.csv", "slip.csv"};
+
+std::optional<std::string> read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return std::nullopt;
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::string needed_text(const fs::path& file) {
+  auto text = read_text(file);
+  if (!text) throw InputError(fmt::format("{}: cannot be read", file.string()));
+  return *text;
+}
+
+Json read_json(const fs::path& file) {
+  auto json = Json::parse(needed_text(file), nullptr, false);
+  if (!json.is_object()) throw InputError(fmt::format("{}: not a JSON object", file.string()));
+  return json;
+}
+
+// The case without the files it once came from: they may have gone since, and the folder holds what was in them.
+io::Case read_run_case(const fs::path& folder) {
+  return io::read_case(folder / "case.toml", {"glue.from_bondline=\"\"", "glue.group=\"\""});
+}
+
+Json describe(const wood::Material& m) {
+  return {{"name", m.name},
+          {"density_kg_m3", m.density_kg_m3},
+          {"E_L_MPa", m.E_L},
+          {"E_R_MPa", m.E_R},
+          {"E_T_MPa", m.E_T},
+          {"Y_R_MPa", m.Y_R},
+          {"hardening_K_MPa", m.hardening_K}};
+}
+
+Json describe(const io::Case& c) {
+  Json kinds = Json::array(), materials = Json::array();
+  for (const auto& kind : io::strand_kinds(c)) {
+    kinds.push_back({{"name", kind.name}, {"material", kind.material.name}, {"angle_deg", kind.angle_deg}});
+    const auto known = [&](const Json& m) { return m.at("name") == kind.material.name; };
+    if (std::none_of(materials.begin(), materials.end(), known)) materials.push_back(describe(kind.material));
+  }
+  return {{"name", c.name},
+          {"length_mm", c.length_mm},
+          {"layer_thickness_mm", c.layer_thickness_mm},
+          {"seed", c.seed},
+          {"kinds", kinds},
+          {"materials", materials},
+          {"compactions", c.schedule.compactions},
+          {"speed_m_s", c.schedule.speed_m_s},
+          {"friction", c.mpm.friction},
+          {"compliances_t_mm_per_MPa", c.test.compliance_t_mm_per_MPa},
+          {"compliance_n_mm_per_MPa", c.test.compliance_n_mm_per_MPa},
+          {"max_gap_mm", c.test.curing.max_gap_mm}};
+}
+
+bool finished(const Json& record, const char* step) {
+  const auto steps = record.value("steps", Json::object());
+  return steps.is_object() && steps.contains(step) && steps[step].is_object() && steps[step].value("finished", false);
+}
+
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".h5") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+std::vector<Panel<2>> read_frames(const fs::path& run_folder) {
+  std::vector<Panel<2>> frames;
+  for (const auto& file : files_in(run_folder / "frames")) frames.push_back(io::read_panel<2>(file, ""));
+  if (!frames.empty()) return frames;
+  for (const auto& file : files_in(run_folder / "panels")) frames.push_back(frame_of(io::read_panel<2>(file, "")));
+  std::sort(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.compaction() < b.compaction(); });
+  return frames;
+}
+
+Json report_data(const fs::path& run_folder) {
+  if (!fs::exists(run_folder / "run.json")) {
+    throw InputError(fmt::format("{}: holds no strandlab run (no run.json)", run_folder.string()));
+  }
+  const auto record = read_json(run_folder / "run.json");
+  const auto c = read_run_case(run_folder);
+  Json run{{"case", describe(c)},      {"case_text", needed_text(run_folder / "case.toml")},
+           {"record", record},         {"mat", nullptr},
+           {"tables", Json::object()}, {"frames", pack_frames({}, {})}};
+  if (finished(record, "mat")) run["mat"] = read_json(run_folder / "mat.json");
+  if (finished(record, "press")) {
+    for (const auto* name : kTables) {
+      if (auto text = read_text(run_folder / name)) run["tables"][name] = *text;
+    }
+    run["frames"] = pack_frames(read_frames(run_folder), c.test.curing);
+  }
+  return {{"format", 1}, {"run", run}};
+}
+
+}  // namespace strandlab::report

@@ -1,0 +1,154 @@
+"""report.html of a run, made again from its folder alone, and the film of a pressing."""
+
+import json
+import os
+import pathlib
+import shutil
+import stat
+
+from program import DONE, FAILED, check, expect_bad_input, finish, scratch, strandlab
+
+# Names are the user's: this one wants to be markup.
+HOSTILE = "</script><script>alert(1)</script><b>\"'&\U0001fab5" + "x" * 300
+
+CASE = """[mat]
+length_mm = 5
+rows = ["surface", "core"]
+[kinds.core]
+length_mm = 2
+length_sd_mm = 0.2
+gap_mm = 1
+gap_sd_mm = 0.2
+[press]
+speed_m_s = 8
+compactions = [0, 0.02, 0.04]
+[glue]
+compliance_t_mm_per_MPa = [0, 0.0105]
+"""
+
+
+def data_of(page):
+    text = pathlib.Path(page).read_text(encoding="utf-8")
+    begin = text.index('<script type="application/json" id="data">') + len('<script type="application/json" id="data">')
+    return json.loads(text[begin:text.index("</script>", begin)])
+
+
+def made_with_the_run_and_again():
+    pathlib.Path("a.toml").write_text(CASE, encoding="utf-8")
+    result = strandlab("run", "a.toml", "-o", "out")
+    check(result.returncode == DONE and "report.html" in result.stdout, f"run says where the report is: {result.stdout}{result.stderr}")
+    first = pathlib.Path("out/report.html").read_bytes()
+    pathlib.Path("a.toml").unlink()
+    pathlib.Path("out/report.html").unlink()
+    shutil.move("out", "moved")
+    again = strandlab("report", "moved")
+    check(again.returncode == DONE, f"report: {again.stderr}")
+    check(pathlib.Path("moved/report.html").read_bytes() == first, "the run folder alone gives the same report")
+    check(strandlab("report", "moved", "-o", "other.html").returncode == DONE and pathlib.Path("other.html").exists(), "report -o")
+    text = first.decode("utf-8")
+    check("http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'" in text, "the page may load nothing")
+    run = data_of("moved/report.html")["run"]
+    for name in ("press.csv", "moduli.csv", "theory.csv", "morphology.csv", "histograms.csv"):
+        check(run["tables"][name] == pathlib.Path("moved", name).read_text(encoding="utf-8"), f"the report holds {name} as it is")
+    frames = run["frames"]["frames"]
+    check(len(frames) == 41, f"frames: {len(frames)}")
+    step = 0.04 / 40
+    check(all(abs(f["compaction"] - k * step) < 0.5 * step for k, f in enumerate(frames)), "frames are even in compaction")
+
+
+def without_frames():
+    """A folder of an older version, or of which the frames were deleted: its panels take their place."""
+    shutil.copytree("moved", "old")
+    shutil.rmtree("old/frames")
+    check(strandlab("report", "old").returncode == DONE, "report without frames")
+    check(len(data_of("old/report.html")["run"]["frames"]["frames"]) == 3, "a frame per panel kept")
+
+
+def steps_that_are_not_done():
+    pathlib.Path("b.toml").write_text(CASE, encoding="utf-8")
+    check(strandlab("mat", "b.toml", "-o", "half").returncode == DONE, "mat")
+    check(strandlab("report", "half").returncode == DONE, "report of a mat")
+    run = data_of("half/report.html")["run"]
+    check(run["tables"] == {} and run["frames"]["frames"] == [] and run["mat"], "a mat has no results yet")
+    expect_bad_input(["movie", "half", "-o", "half.mp4"], ["half", "no pressed panel"], env=path_with_ffmpeg(""))
+
+
+def hostile_names():
+    """A run folder with such a name in its record and its mat still is a page whose data are data."""
+    shutil.copytree("moved", "hostile")
+    for name in ("run.json", "mat.json"):
+        file = pathlib.Path("hostile", name)
+        json_text = json.loads(file.read_text(encoding="utf-8"))
+        if name == "run.json":
+            json_text["case_name"] = HOSTILE
+        else:
+            json_text["layers"][0]["role"] = HOSTILE
+        file.write_text(json.dumps(json_text), encoding="utf-8")
+    check(strandlab("report", "hostile").returncode == DONE, "report with hostile names")
+    text = pathlib.Path("hostile/report.html").read_text(encoding="utf-8")
+    check("alert(1)<" not in text, "no name ends the element it is in")
+    check(data_of("hostile/report.html")["run"]["record"]["case_name"] == HOSTILE, "the name stays what it is")
+
+
+def refusals():
+    expect_bad_input(["report", "nowhere"], ["nowhere", "run.json"])
+    expect_bad_input(["report", "moved", "-o", "no/folder/report.html"], ["no/folder"])
+    empty = {**os.environ, "STRANDLAB_SHARE": "/nowhere"}
+    expect_bad_input(["report", "moved"], ["/nowhere/report.html", "STRANDLAB_SHARE", "Node.js"], env=empty)
+    damaged = pathlib.Path("damaged")
+    shutil.copytree("moved", damaged)
+    (damaged / "frames" / "frame_03.h5").write_bytes(b"nothing")
+    expect_bad_input(["report", "damaged"], ["frame_03.h5"])
+    (damaged / "run.json").write_text("[]", encoding="utf-8")
+    expect_bad_input(["report", "damaged"], ["run.json"])
+
+
+def run_without_a_page():
+    """A program without the report's page does its main job and says how to get the page."""
+    result = strandlab("run", "b.toml", "-o", "bare", env={**os.environ, "STRANDLAB_SHARE": "/nowhere"})
+    check(result.returncode == DONE and "no report.html" in result.stderr, f"run without the page: {result.stderr}")
+    check(pathlib.Path("bare/moduli.csv").exists() and not pathlib.Path("bare/report.html").exists(), "all but the report")
+    result = strandlab("run", "b.toml", "-o", "bare")
+    check(result.returncode == DONE and pathlib.Path("bare/report.html").exists(), "a finished run gets its report later")
+
+
+def path_with_ffmpeg(script):
+    """An environment whose only ffmpeg is this shell script (None: no ffmpeg)."""
+    folder = pathlib.Path("path").absolute()
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    if script is not None:
+        program = folder / "ffmpeg"
+        program.write_text("#!/bin/sh\n" + script, encoding="utf-8")
+        program.chmod(program.stat().st_mode | stat.S_IXUSR)
+    return {**os.environ, "PATH": str(folder)}
+
+
+def movie():
+    # The stand-in writes what it was asked for and how many pictures lie beside the first.
+    fake = 'for last; do :; done; folder="${last%/*}"; set -- "$@" pictures "$folder"/frame_*.png; echo "$*" > "$last"\n'
+    for name in ("press.mp4", "press.gif"):
+        result = strandlab("movie", "moved", "-o", name, "--width", "400", env=path_with_ffmpeg(fake))
+        check(result.returncode == DONE and f"41 frames -> {name}" in result.stdout, f"movie: {result.stdout}{result.stderr}")
+        asked, pictures = pathlib.Path(name).read_text(encoding="utf-8").split(" pictures ")
+        check(("libx264" in asked) == (name == "press.mp4") and ("palettegen" in asked) == (name == "press.gif"), f"{name}: {asked}")
+        check(len(pictures.split()) == 41, f"pictures for the film: {len(pictures.split())}")
+    expect_bad_input(["movie", "moved"], ["ffmpeg is not installed", "apt-get install ffmpeg"], env=path_with_ffmpeg(None))
+    expect_bad_input(["movie", "moved", "-o", "press.avi"], ["press.avi", ".mp4", ".gif"])
+    expect_bad_input(["movie", "moved", "--fps", "0"], ["--fps 0"])
+    expect_bad_input(["movie", "nowhere"], ["nowhere", "run.json"], env=path_with_ffmpeg(fake))
+    failing = strandlab("movie", "moved", "-o", "bad.mp4", "--width", "400", env=path_with_ffmpeg("echo no such codec >&2; exit 1\n"))
+    check(failing.returncode == FAILED and "no such codec" in failing.stderr, f"a failing ffmpeg: {failing.stderr}")
+    check(not pathlib.Path("bad.mp4").exists(), "a failed film leaves no file")
+
+
+if __name__ == "__main__":
+    with scratch():
+        made_with_the_run_and_again()
+        without_frames()
+        steps_that_are_not_done()
+        hostile_names()
+        refusals()
+        run_without_a_page()
+        movie()
+    finish()

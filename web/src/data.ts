@@ -1,0 +1,110 @@
+// The data of a run as the program writes them into the page (src/strandlab/report/report_data.hpp).
+
+export interface Kind {
+  name: string;
+  material: string;
+  angle_deg: number;
+}
+
+export interface Material {
+  name: string;
+  density_kg_m3: number;
+  E_L_MPa: number;
+  E_R_MPa: number;
+  E_T_MPa: number;
+  Y_R_MPa: number;
+  hardening_K_MPa: number;
+}
+
+export interface CaseData {
+  name: string;
+  length_mm: number;
+  layer_thickness_mm: number;
+  seed: number;
+  kinds: Kind[];
+  materials: Material[];
+  compactions: number[];
+  speed_m_s: number;
+  friction: number;
+  compliances_t_mm_per_MPa: number[];
+  compliance_n_mm_per_MPa: number;
+  max_gap_mm: number;
+}
+
+export interface MatStrand {
+  x0: number;
+  x1: number;
+  angle_deg?: number;
+  material?: string;
+}
+
+export interface MatData {
+  length_mm: number;
+  layer_thickness_mm: number;
+  layers: {role: string; strands: MatStrand[]}[];
+}
+
+export interface TestState {
+  compaction: number;
+  floating_strands: number;
+  glued_fraction: number;
+  warnings: string[];
+}
+
+export interface RunRecord {
+  strandlab?: string;
+  git?: string;
+  seed?: number;
+  date?: string;
+  case_name?: string;
+  machine?: {host?: string; cpu?: string; cores?: number; system?: string};
+  steps: {
+    press?: {
+      finished?: boolean;
+      particles?: number;
+      steps?: number;
+      threads?: number;
+      wall_s?: number;
+      particle_steps_per_s?: number;
+      warnings?: string[];
+    };
+    test?: {finished?: boolean; wall_s?: number; states?: TestState[]};
+  };
+}
+
+export interface PackedFrame {
+  compaction: number;
+  time_ms: number;
+  bottom_mm: number;
+  top_mm: number;
+  cells: string;
+  glue: string;
+}
+
+export interface PackedFrames {
+  quantum_mm?: number;
+  length_mm?: number;
+  initial_thickness_mm?: number;
+  strands: {kind: string; row: number; angle_deg: number; points: [number, number]}[];
+  fields: {key: string; low: number; high: number}[];
+  frames: PackedFrame[];
+}
+
+export interface Run {
+  case: CaseData;
+  case_text: string;
+  record: RunRecord;
+  mat: MatData | null;
+  tables: Record<string, string>;
+  frames: PackedFrames;
+}
+
+export interface ReportData {
+  format: number;
+  run: Run;
+}
+
+// The data embedded in the page. Throws where the page was not filled.
+export function embedded(): ReportData {
+  return JSON.parse(document.getElementById('data')?.textContent ?? '') as ReportData;
+}

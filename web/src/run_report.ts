@@ -1,0 +1,303 @@
+// The report of one run.
+import {Chart, formatNumber, type Series} from './chart';
+import type {Run} from './data';
+import {downloadText, button, el, fileName} from './dom';
+import {findingsOf} from './findings';
+import {unpack} from './frames';
+import {layupFigure} from './layup';
+import {SectionView} from './section';
+import {parseCsv, Table} from './table';
+import {toggleTheme} from './theme';
+
+const testNames: Record<string, string> = {
+  tension: 'Tension', bending_end_rotation: 'Bending (end rotation)', bending_end_couple: 'Bending (end couple)',
+};
+function nameOf(test: string): string {
+  return testNames[test] ?? test;
+}
+
+function percent(compaction: number): string {
+  return `${Number((100 * compaction).toFixed(1))} %`;
+}
+
+function table(run: Run, name: string): Table | undefined {
+  const text = run.tables[name];
+  const parsed = text ? parseCsv(text) : undefined;
+  return parsed && parsed.rows.length > 0 ? parsed : undefined;
+}
+
+// ---- the head of the page
+
+function tiles(run: Run): HTMLElement | null {
+  const facts: [string, string, string][] = [];
+  const film = run.frames.frames;
+  const last = film[film.length - 1];
+  if (last) facts.push(['Thickness', formatNumber(last.top_mm - last.bottom_mm), `mm at ${percent(last.compaction)} compaction`]);
+  const press = table(run, 'press.csv');
+  if (press) facts.push(['Highest pressure', formatNumber(Math.max(...press.numbers('stress_MPa'))), 'MPa on the platens']);
+  const moduli = table(run, 'moduli.csv');
+  for (const test of moduli?.distinct('test') ?? []) {
+    const rows = moduli!.where('test', test);
+    const end = rows.where('compaction', rows.text('compaction')[rows.rows.length - 1]!);
+    const compliance = end.numbers('compliance_t_mm_per_MPa');
+    const i = compliance.indexOf(Math.min(...compliance));
+    facts.push([`${nameOf(test).replace(/ \(.*/, '')} modulus`, formatNumber(Number((end.numbers('modulus_MPa')[i]! / 1000).toPrecision(3))),
+      `GPa at ${percent(end.numbers('compaction')[i]!)}, ${compliance[i] === 0 ? 'perfect bond' : `1/Dₜ ${compliance[i]} mm/MPa`}`]);
+  }
+  return facts.length === 0 ? null : el('dl', {class: 'tiles'}, ...facts.map(([name, value, unit]) =>
+    el('div', {class: 'tile'}, el('dt', {}, name), el('dd', {}, el('b', {}, value), ' ', el('span', {}, unit)))));
+}
+
+function header(run: Run, film: {strands: number}): HTMLElement {
+  const c = run.case;
+  const rows = run.mat?.layers.length ?? 0;
+  const strands = film.strands || (run.mat?.layers.reduce((sum, layer) => sum + layer.strands.length, 0) ?? 0);
+  const most = c.compactions[c.compactions.length - 1] ?? 0;
+  const words = [
+    rows > 0 ? `A mat of ${strands} strands in ${rows} rows, ${Number(c.length_mm.toFixed(3))} mm long` : `A mat ${c.length_mm} mm long`,
+    most > 0 ? `pressed to ${percent(most)} at ${c.speed_m_s} m/s` : 'as laid',
+  ];
+  return el('header', {class: 'page-head'},
+    el('div', {}, el('p', {class: 'brand'}, 'Strandlab'), el('h1', {}, title(run)), el('p', {class: 'lead'}, `${words.join(', ')}.`)),
+    button('◐', 'Light or dark', toggleTheme));
+}
+
+function findings(run: Run): HTMLElement | null {
+  const list = findingsOf(run);
+  if (list.length === 0) return null;
+  const marks = {good: '✓', note: '•', warning: '!'} as const;
+  const words = {good: 'Good: ', note: '', warning: 'Warning: '} as const;
+  return section('What the numbers say', el('ul', {class: 'card findings'}, ...list.map(f =>
+    el('li', {class: f.level}, el('span', {class: 'mark', 'aria-hidden': 'true'}, marks[f.level]),
+      el('span', {}, el('span', {class: 'sr'}, words[f.level]), f.text)))));
+}
+
+// The case's name; the name in case.toml is that file's own.
+function title(run: Run): string {
+  return run.record.case_name ?? run.case.name;
+}
+
+function section(title: string, ...children: (Node | null | undefined)[]): HTMLElement {
+  return el('section', {}, el('h2', {}, title), ...children.map(child => child ?? null));
+}
+
+// ---- charts
+
+// Stress of a platen is its force over the mat's face, 1 mm deep in a section.
+function pressCharts(run: Run): Chart[] {
+  const press = table(run, 'press.csv');
+  if (!press) return [];
+  const compaction = press.numbers('compaction');
+  const stress = press.numbers('stress_MPa');
+  const platen = (name: string) => press.numbers(name).map(force => force / run.case.length_mm);
+  const percents = compaction.map(c => 100 * c);
+  const x = {min: 0, max: Math.max(1, Math.round(Math.max(...percents)))};
+  const energy = (name: string, label: string): Series => ({name: label, x: percents, y: press.numbers(name)});
+  return [
+    new Chart({
+      id: 'stress', title: 'Pressing stress', note: 'Compression positive; each point is the mean since the point before.',
+      xLabel: 'compaction, %', yLabel: 'stress, MPa',
+      series: [
+        {name: 'top platen', x: percents, y: platen('force_top_N')},
+        {name: 'bottom platen', x: percents, y: platen('force_bottom_N')},
+        {name: 'mean', x: percents, y: stress, style: 'dashed', ink: true},
+      ],
+      table: press.select(['compaction', 'time_ms', 'stress_MPa', 'force_top_N', 'force_bottom_N']),
+      x, summary: `Platen stress against compaction; it reaches ${formatNumber(Math.max(...stress))} MPa.`,
+    }),
+    new Chart({
+      id: 'energies', title: 'Where the work goes', note: 'Energies since the start, for a section 1 mm deep.',
+      xLabel: 'compaction, %', yLabel: 'energy, mJ',
+      series: [
+        {name: "platens' work", x: percents, y: press.numbers('platen_work_mJ'), style: 'dashed', ink: true},
+        energy('plastic_mJ', 'plastic'), energy('elastic_mJ', 'elastic'), energy('friction_mJ', 'friction'),
+        energy('contact_mJ', 'contact'), energy('filter_mJ', 'filter'), energy('kinetic_mJ', 'kinetic'),
+      ],
+      table: press.select(['compaction', 'platen_work_mJ', 'plastic_mJ', 'elastic_mJ', 'friction_mJ', 'contact_mJ', 'filter_mJ', 'kinetic_mJ']),
+      x, summary: "The platens' work and the energies it turns into, against compaction.",
+    }),
+  ];
+}
+
+// A model's values over x in place of a measured series: dashed, one dash for each model. Models repeat their values for
+// every compliance; `of` picks x.
+function theorySeries(theory: Table | undefined, x: (row: Table) => number[], split?: string): Series[] {
+  return (theory?.distinct('model') ?? []).flatMap(model => {
+    const rows = theory!.where('model', model);
+    const parts = split ? rows.distinct(split).map(value => rows.where(split, value)) : [rows];
+    return parts.map((part, i): Series => {
+      const points = new Map(x(part).map((value, k) => [value, part.numbers('modulus_MPa')[k]!]));
+      const sorted = [...points].sort((a, b) => a[0] - b[0]);
+      return {name: i === 0 ? model : '', x: sorted.map(p => p[0]), y: sorted.map(p => p[1]), style: 'dashed', ink: true};
+    });
+  });
+}
+
+function modulusCharts(run: Run): Chart[] {
+  const moduli = table(run, 'moduli.csv');
+  if (!moduli) return [];
+  return moduli.distinct('test').flatMap(test => {
+    const rows = moduli.where('test', test);
+    const theory = table(run, 'theory.csv')?.where('test', test);
+    const glueFree = theory && new Table(theory.columns, theory.rows.filter(row => !row.includes('shear-lag')));
+    const compactions = rows.distinct('compaction');
+    const compliances = rows.distinct('compliance_t_mm_per_MPa');
+    const over = (x: (row: Table) => number[]) => compliances.map((value, i): Series => {
+      const line = rows.where('compliance_t_mm_per_MPa', value);
+      return {name: Number(value) === 0 ? 'perfect bond' : `1/Dₜ ${value}`, x: x(line), y: line.numbers('modulus_MPa'), style: 'marked',
+              family: [i, compliances.length]};
+    });
+    const compaction = (row: Table) => row.numbers('compaction').map(c => 100 * c);
+    const densification = (row: Table) => row.numbers('compaction').map(c => 1 / (1 - c));
+    const title = `${nameOf(test)} modulus`;
+    const yLabel = 'modulus, MPa';
+    return [
+      new Chart({
+        id: `${fileName(test)}-compliance`, title: `${title} and glue`, note: 'One line per compaction; dashed: closed-form models.',
+        xLabel: 'glue compliance 1/Dₜ, mm/MPa', yLabel,
+        series: [
+          ...compactions.map((value, i): Series => {
+            const line = rows.where('compaction', value);
+            return {name: percent(Number(value)), x: line.numbers('compliance_t_mm_per_MPa'), y: line.numbers('modulus_MPa'), style: 'marked',
+                    family: [i, compactions.length]};
+          }),
+          ...theorySeries(theory, row => row.numbers('compliance_t_mm_per_MPa'), 'compaction'),
+        ],
+        table: rows, summary: 'Modulus against glue compliance, one line per compaction, with closed-form models.',
+      }),
+      new Chart({
+        id: `${fileName(test)}-compaction`, title: `${title} and compaction`, note: 'One line per glue; dashed: closed-form models.',
+        xLabel: 'compaction, %', yLabel, series: [...over(compaction), ...theorySeries(glueFree, compaction)], table: rows,
+        summary: 'Modulus against compaction, one line per glue compliance, with closed-form models.',
+      }),
+      new Chart({
+        id: `${fileName(test)}-densification`, title: `${title} and densification`,
+        note: 'A modulus that only follows density is a straight line through the origin of 1/(1 − C).',
+        xLabel: '1/(1 − C)', yLabel, series: [...over(densification), ...theorySeries(glueFree, densification)], table: rows,
+        summary: 'Modulus against 1/(1 - compaction), one line per glue compliance, with closed-form models.',
+      }),
+    ];
+  });
+}
+
+const quantities: Record<string, [string, string, number]> = {
+  grain_angle_deg: ['Grain angle', 'grain angle against the panel, °', 1],
+  strand_thickness_strain: ['Thickness strain of the strands', 'thickness strain, %', 100],
+};
+
+// A step line through the bins that hold anything, over all states, with an empty bin at each end.
+function histogramCharts(run: Run): Chart[] {
+  const histograms = table(run, 'histograms.csv');
+  if (!histograms) return [];
+  return histograms.distinct('quantity').map(quantity => {
+    const [title, xLabel, factor] = quantities[quantity] ?? [quantity, quantity, 1];
+    const rows = histograms.where('quantity', quantity);
+    const compactions = rows.distinct('compaction');
+    const from = rows.numbers('from'), to = rows.numbers('to'), fraction = rows.numbers('fraction');
+    const used = fraction.flatMap((f, i) => (f > 1e-3 ? [i] : []));
+    const width = (to[0]! - from[0]!) * factor;
+    const low = Math.min(...used.map(i => from[i]! * factor)) - width, high = Math.max(...used.map(i => to[i]! * factor)) + width;
+    const series = compactions.map((value, i): Series => {
+      const state = rows.where('compaction', value);
+      const x = state.numbers('to').map(v => v * factor), y = state.numbers('fraction').map(v => 100 * v);
+      const shown = x.flatMap((v, k) => (v >= low - 1e-9 && v <= high + 1e-9 ? [k] : []));
+      return {name: percent(Number(value)), x: shown.map(k => x[k]!), y: shown.map(k => y[k]!), style: 'steps', family: [i, compactions.length]};
+    });
+    // A mat as laid is one bar that would dwarf the rest.
+    const rest = series.filter(s => s.y.filter(v => v > 0).length > 1);
+    return new Chart({
+      id: `histogram-${fileName(quantity)}`, title, note: 'Share of the wood in each bin, one line per compaction.', xLabel,
+      yLabel: 'share of the wood, %', series: rest.length > 0 ? rest : series, table: rows,
+      summary: `Histogram of ${xLabel}, one line per compaction.`, x: {min: low, max: high}, y: {min: 0},
+    });
+  });
+}
+
+// ---- tables of words
+
+function facts(title: string, rows: [string, string][]): HTMLElement {
+  return el('div', {class: 'card'}, el('h3', {}, title), el('table', {class: 'facts'}, el('tbody', {}, ...rows.map(([name, value]) =>
+    el('tr', {}, el('th', {scope: 'row'}, name), el('td', {}, value))))));
+}
+
+function caseFacts(run: Run): HTMLElement {
+  const c = run.case;
+  const glue = c.compliances_t_mm_per_MPa.map(v => (v === 0 ? '0 (perfect)' : String(v))).join(', ');
+  return el('div', {class: 'grid'},
+    ...c.materials.map(m => facts(`Material: ${m.name}`, [
+      ['Density', `${m.density_kg_m3} kg/m³`],
+      ['Moduli E_L, E_R, E_T', `${m.E_L_MPa}, ${m.E_R_MPa}, ${m.E_T_MPa} MPa`],
+      ['Yield across the grain Y_R', `${m.Y_R_MPa} MPa`],
+      ['Hardening K', `${m.hardening_K_MPa} MPa`],
+    ])),
+    facts('Press', [
+      ['Closing speed', `${c.speed_m_s} m/s`],
+      ['Friction between strands', String(c.friction)],
+      ['States kept at', c.compactions.map(percent).join(', ')],
+    ]),
+    facts('Glue', [
+      ['Shear compliance 1/Dₜ', `${glue} mm/MPa`],
+      ['Normal compliance 1/Dₙ', c.compliance_n_mm_per_MPa === 0 ? '0 (perfect)' : `${c.compliance_n_mm_per_MPa} mm/MPa`],
+      ['Faces bond up to a gap of', `${c.max_gap_mm} mm`],
+    ]));
+}
+
+function duration(seconds: number): string {
+  if (seconds < 90) return `${seconds.toFixed(seconds < 10 ? 1 : 0)} s`;
+  return seconds < 5400 ? `${(seconds / 60).toFixed(1)} min` : `${(seconds / 3600).toFixed(1)} h`;
+}
+
+function provenance(run: Run): HTMLElement {
+  const {record} = run;
+  const {press, test} = record.steps;
+  const m = record.machine ?? {};
+  const rows: [string, string | undefined][] = [
+    ['Program', record.strandlab && `strandlab ${record.strandlab} (${record.git ?? 'unknown commit'})`],
+    ['Run begun', record.date],
+    ['Seed of the mat', String(run.case.seed)],
+    ['Machine', [m.host, m.cpu, m.cores && `${m.cores} cores`, m.system].filter(Boolean).join(', ')],
+    ['Pressing', press?.wall_s !== undefined ? `${press.particles ?? '?'} particles, ${press.steps ?? '?'} steps, ${duration(press.wall_s)} on ` +
+      `${press.threads ?? '?'} thread(s), ${formatNumber((press.particle_steps_per_s ?? 0) / 1e6)} million particle-steps/s` : undefined],
+    ['Virtual tests', test?.wall_s !== undefined ? duration(test.wall_s) : undefined],
+  ];
+  return section('Provenance',
+    facts('How this was made', rows.filter((row): row is [string, string] => !!row[1])),
+    el('details', {class: 'card'}, el('summary', {}, 'The case, as it was run'), el('pre', {tabindex: 0}, run.case_text),
+      el('div', {class: 'tools'}, button('TOML', 'Download the case file', () =>
+        downloadText('case.toml', 'text/plain', run.case_text)))));
+}
+
+// ---- all of it
+
+function stressAt(run: Run): ((compaction: number) => number | undefined) | undefined {
+  const press = table(run, 'press.csv');
+  if (!press) return undefined;
+  const compaction = press.numbers('compaction'), stress = press.numbers('stress_MPa');
+  return at => {
+    const i = compaction.findIndex(c => c >= at - 1e-9);
+    return i < 0 ? stress[stress.length - 1] : stress[i];
+  };
+}
+
+export function runReport(run: Run): {title: string; content: Node[]; view?: SectionView} {
+  const film = unpack(run.frames);
+  const view = film.frames.length > 0 ? new SectionView(film, {
+    id: 'section', kinds: run.case.kinds.map(kind => kind.name), stressAt: stressAt(run),
+  }) : undefined;
+  const grid = (charts: Chart[]) => (charts.length > 0 ? el('div', {class: 'grid'}, ...charts.map(chart => chart.element)) : null);
+  const press = pressCharts(run), moduli = modulusCharts(run), histograms = histogramCharts(run);
+  const content = [
+    header(run, {strands: film.strands.length}),
+    tiles(run),
+    view ? section('The section through the pressing', view.element) : null,
+    findings(run),
+    press.length > 0 ? section('Pressing', grid(press)) : null,
+    moduli.length > 0 ? section('Stiffness', grid(moduli)) : null,
+    histograms.length > 0 ? section('Shape of the strands', grid(histograms)) : null,
+    section('The case', run.mat ? layupFigure(run.mat, run.case) : null, caseFacts(run)),
+    provenance(run),
+    el('footer', {}, `strandlab ${run.record.strandlab ?? ''}. The numbers are in the CSV files of the run folder.`),
+  ];
+  return {title: `${title(run)} – Strandlab`, content: content.filter((node): node is HTMLElement => node !== null), view};
+}
+
