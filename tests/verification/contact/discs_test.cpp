@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "support/report.hpp"
 #include "verification/contact/bodies.hpp"
 
 namespace strandlab::contact_tests {
@@ -75,7 +76,8 @@ TEST_P(Discs, FeelEachOtherWhenTheyTouch) {
   }
   EXPECT_LT(before, 0.3);
   EXPECT_GT(before, -0.3);
-  RecordProperty("gap_at_first_impulse_cells", std::to_string(before));
+  report("gap of two discs when the first impulse is felt, " + testing::PrintToString(GetParam()), before, "within 0.3",
+         "cells");
 }
 
 // Contact only pushes: the speed of separation never falls, is constant once the discs have parted, and the discs part
@@ -92,7 +94,8 @@ TEST_P(Discs, ReboundWithoutSticking) {
   EXPECT_GT(gap_cells(), 1.5);
   EXPECT_GT(speed, 0.9 * approach);
   EXPECT_LT(speed, 1.0 * approach);
-  RecordProperty("restitution", std::to_string(speed / approach));
+  report("speed of separation of two discs over that of approach, " + testing::PrintToString(GetParam()),
+         speed / approach, "0.9 to 1");
 }
 
 TEST_P(Discs, KeepTheirMomentum) {
@@ -105,6 +108,7 @@ TEST_P(Discs, KeepTheirMomentum) {
     worst = std::max(worst, (engine_->momentum() - start).norm() / scale);
   }
   EXPECT_LT(worst, 1e-12);
+  report("change of the momentum of two discs that meet, " + testing::PrintToString(GetParam()), worst, "< 1e-12");
   EXPECT_EQ(engine_->mass(), mass);
 }
 

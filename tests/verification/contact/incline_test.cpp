@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "support/report.hpp"
 #include "verification/contact/bodies.hpp"
 
 namespace strandlab::contact_tests {
@@ -117,6 +118,11 @@ class Incline {
   std::optional<mpm::Engine<Dim>> engine_;
 };
 
+template <int Dim>
+std::string slope_name(const Slope& slope) {
+  return std::to_string(Dim) + "D, " + testing::PrintToString(slope);
+}
+
 // Newton and Coulomb: a = g (sin - mu cos), and friction takes mu times the weight on the slope times the slip. tan =
 // 0.6, mu = 0.3.
 template <int Dim>
@@ -128,12 +134,13 @@ void expect_slides(const Slope& slope, int steps) {
   const double acceleration = (incline.speed() - v0) / (incline.time() - t0);
   const double expected = incline.slope_gravity() - kFriction * incline.normal_gravity();
   EXPECT_NEAR(acceleration / expected, 1, 0.02);
-  testing::Test::RecordProperty("acceleration_ratio", std::to_string(acceleration / expected));
+  report("acceleration down a slope over g (sin - mu cos), " + slope_name<Dim>(slope), acceleration / expected,
+         "1 +- 0.02");
   const double slip = incline.place() - s0;
   EXPECT_GT(slip, 0.25 * kCell);
   const double work = (incline.friction_work() - w0) / (kFriction * incline.weight() * slip);
   EXPECT_NEAR(work, 1, 0.02);
-  testing::Test::RecordProperty("friction_work_ratio", std::to_string(work));
+  report("friction work over mu weight slip, " + slope_name<Dim>(slope), work, "1 +- 0.02");
 }
 
 // tan = 0.2 < mu: the particles next to the slope may shear by what elasticity gives (below 1e-4 cell here), and not
@@ -147,7 +154,7 @@ void expect_sticks(const Slope& slope, int steps) {
   incline.run(steps);
   const double slip = std::abs(incline.place() - start) / kCell;
   EXPECT_LT(slip, 1e-3);
-  testing::Test::RecordProperty("slip_cells", std::to_string(slip));
+  report("slip below the angle of friction, " + slope_name<Dim>(slope), slip, "< 1e-3", "cells");
 }
 
 class Incline2D : public testing::TestWithParam<Slope> {};

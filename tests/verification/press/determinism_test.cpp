@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "support/report.hpp"
 #include "verification/press/stacks.hpp"
 
 namespace strandlab::press_tests {
@@ -188,6 +189,7 @@ TEST(Press, MassIsThatOfTheStrands) {
   auto grid = press::setup(panel, {}, mpm::Side::kRoller, mpm::Options{}).grid;
   mpm::Engine<2> engine(bodies, grid, mpm::Options{});
   EXPECT_NEAR(engine.mass() / expected, 1, 1e-14);
+  report("mass over that of the strands, less 1", engine.mass() / expected - 1, "0 +- 1e-14");
 }
 
 // Work of the platens against the sum of all terms, each computed from its own definition, at every record, with the
@@ -200,6 +202,10 @@ TEST(Press, EnergyBalances) {
       if (r.compaction > 0.005) worst = std::max(worst, std::abs(r.balance_error()));
     }
     EXPECT_LT(worst, 0.01) << "filter every " << filter_interval;
+    report(
+        "energy balance of a pressing to 30 %, " +
+            (filter_interval ? "filter every " + std::to_string(filter_interval) + " steps" : std::string("no filter")),
+        worst, "< 0.01");
     EXPECT_GT(records.back().friction_mJ, 0);
     EXPECT_GT(records.back().elastic_mJ, 0);
   }

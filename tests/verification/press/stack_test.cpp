@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "support/report.hpp"
 #include "verification/press/stacks.hpp"
 
 namespace strandlab::press_tests {
@@ -57,7 +58,8 @@ class Stack : public testing::TestWithParam<Case> {
 
   // Stress within 2 % from C = .1 on; below, the compaction at which the closed form has the measured stress is within
   // .002.
-  static void expect_follows(const press::Outcome<2>& outcome, const std::function<double(double)>& closed) {
+  static void expect_follows(const std::string& wood, const press::Outcome<2>& outcome,
+                             const std::function<double(double)>& closed) {
     double worst_stress = 0, worst_shift = 0, before = 0;
     for (const auto& r : outcome.records) {
       const double C = 0.5 * (before + r.compaction);  // middle of the record's interval
@@ -72,20 +74,21 @@ class Stack : public testing::TestWithParam<Case> {
     }
     EXPECT_LT(worst_stress, 0.02);
     EXPECT_LT(worst_shift, 0.002);
-    RecordProperty("worst_stress_error", std::to_string(worst_stress));
-    RecordProperty("worst_shift_in_compaction", std::to_string(worst_shift));
+    const std::string what = wood + " stack, " + testing::PrintToString(GetParam()) + ": ";
+    report(what + "largest error of the stress, C >= 0.1", worst_stress, "< 0.02");
+    report(what + "largest shift of the curve, C < 0.1", worst_shift, "< 0.002");
     EXPECT_GT(outcome.records.size(), 190u);
   }
 };
 
 TEST_P(Stack, ElasticFollowsTheClosedForm) {
   const ConfinedStrand confined(poplar(false));
-  expect_follows(run(false), [&](double C) { return confined.elastic(C); });
+  expect_follows("elastic", run(false), [&](double C) { return confined.elastic(C); });
 }
 
 TEST_P(Stack, HillFollowsTheClosedForm) {
   const ConfinedStrand confined(poplar(true));
-  expect_follows(run(true), [&](double C) { return confined.hill(C); });
+  expect_follows("Hill", run(true), [&](double C) { return confined.hill(C); });
 }
 
 INSTANTIATE_TEST_SUITE_P(Press, Stack,

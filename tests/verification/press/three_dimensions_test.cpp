@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "support/report.hpp"
 #include "verification/press/stacks.hpp"
 
 namespace strandlab::press_tests {
@@ -102,7 +103,7 @@ TEST(ThreeDimensions, ExtrudedMatMovesAsItsSection) {
   EXPECT_LT(worst, 1e-10);
   EXPECT_LT(across, 1e-10);
   EXPECT_GT(moved, 0.05);  // mm; something happened
-  RecordProperty("largest_difference_mm", std::to_string(worst * 1e12) + "e-12");
+  report("extruded mat against its section, positions after 200 steps", worst, "< 1e-10", "mm");
   for (std::size_t i = 0; i < section.top_force.size(); ++i) {
     EXPECT_NEAR(prism.top_force[i], section.top_force[i], 1e-7 + 1e-7 * std::abs(section.top_force[i])) << "step " << i;
   }
@@ -132,7 +133,7 @@ TEST(ThreeDimensions, ExtrudedMatHasThePressingCurveOfItsSection) {
   }
   EXPECT_LT(worst, 0.01);
   EXPECT_GT(section.back().stress_MPa, 1);
-  RecordProperty("worst_relative_difference", std::to_string(worst));
+  report("extruded mat against its section, pressing curve to C = 0.1", worst, "< 0.01");
 }
 
 // Two strands 4 mm long and 1.6 mm wide across each other, pressed by 15 % between smooth platens. Each is alone at its
@@ -207,8 +208,8 @@ TEST_F(CrossedStrands, KeepTheirMomentumAndDoNotInterpenetrate) {
   ASSERT_GT(count, 100);
   EXPECT_LT(std::abs(sum / count), 0.02);  // cells
   EXPECT_GT(worst, -0.15);                 // at the strands' edges, where the arms bend away
-  RecordProperty("mean_gap_cells", std::to_string(sum / count));
-  RecordProperty("deepest_overlap_cells", std::to_string(-worst));
+  report("crossed strands pressed by 15 %: mean gap of their interface", sum / count, "within 0.02", "cells");
+  report("crossed strands pressed by 15 %: deepest overlap, at the edges", -worst, "< 0.15", "cells");
 }
 
 }  // namespace
