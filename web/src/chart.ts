@@ -34,6 +34,7 @@ export interface ChartSpec {
   x?: {min?: number; max?: number};
   y?: {min?: number; max?: number; hidden?: boolean};
   bare?: boolean;  // the plot alone, without title and buttons
+  item?: boolean;  // a curve that is not a function of x: tell its points one by one
   grid?: {left?: number; right?: number; top?: number; bottom?: number};
 }
 
@@ -111,9 +112,9 @@ export class Chart {
       name: s.name,
       data: s.x.map((x, i) => [x, s.y[i]]),
       step: style === 'steps' ? 'end' : false,
-      showSymbol: style === 'marked' || s.x.length === 1,
-      symbol: symbols[index % symbols.length],
-      symbolSize: 7,
+      showSymbol: style === 'marked' || s.x.length === 1 || !!this.spec.item,
+      symbol: style === 'marked' || s.x.length === 1 || this.spec.item ? symbols[index % symbols.length] : 'none',
+      symbolSize: this.spec.item ? 3 : 7,
       lineStyle: {
         width: style === 'dashed' ? 1.5 : 2,
         type: style === 'dashed' ? dashes[references.indexOf(s) % dashes.length] : 'solid',
@@ -153,7 +154,7 @@ export class Chart {
         formatter: (label: string) => (label.length > 28 ? label.slice(0, 27) + '…' : label),
       },
       tooltip: {
-        trigger: 'axis', renderMode: 'richText', confine: true, backgroundColor: colour('raised'), borderColor: colour('line'),
+        trigger: spec.item ? 'item' : 'axis', renderMode: 'richText', confine: true, backgroundColor: colour('raised'), borderColor: colour('line'),
         textStyle: {color: ink, fontSize: 12}, valueFormatter: (value: unknown) => formatNumber(Number(value)),
         axisPointer: {type: 'line', lineStyle: {color: soft}, snap: true,
                       label: {formatter: (p: {value: number}) => `${spec.xLabel}: ${formatNumber(p.value)}`}},

@@ -11,10 +11,14 @@ function stops(text: string): Rgb[] {
   return text.split(' ').map(rgb);
 }
 
-// viridis (Smith & van der Walt 2015), cividis (Nunez et al. 2018), RdBu turned round (Brewer 2003).
+// viridis (Smith & van der Walt 2015), cividis (Nunez et al. 2018), RdBu turned round (Brewer 2003), with a
+// middle of the colour of wood.
 export const viridis = stops('440154 472c7a 3b518b 2c718e 21908d 27ad81 5cc863 aadc32 fde725');
 export const cividis = stops('00224e 123570 3b496c 575d6d 707173 8a8678 a59c74 c3b369 e1cc55 fee838');
-export const blueWhiteRed = stops('053061 2166ac 4393c3 92c5de d1e5f0 f7f7f7 fddbc7 f4a582 d6604d b2182b 67001f');
+export const blueWhiteRed = stops('053061 2166ac 4393c3 98c6dc dbe4df f4ead6 f8d5b8 f2a582 d6604d b2182b 67001f');
+
+// plasma (Smith & van der Walt 2015), for lines over the others.
+export const plasma = stops('3b049a 7201a8 9c179e bd3786 d8576b ed7953 fb9f3a fdca26 f0f921');
 
 // Okabe & Ito (2008): distinct for every common kind of colour vision.
 export const okabeIto = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#8c6bb1'];

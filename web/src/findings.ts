@@ -92,9 +92,19 @@ function aboutTests(run: Run): Finding[] {
 }
 
 function warnings(run: Run): Finding[] {
-  const tests = (run.record.steps.test?.states ?? []).flatMap(state =>
-    state.warnings.filter(text => !text.includes('left out')).map(text => `At ${of(state.compaction)} compaction: ${text}`));
-  return [...(run.record.steps.press?.warnings ?? []), ...tests].map(text => ({level: 'warning', text}));
+  // A warning that several states share but for its numbers is told once, as the last of them has it.
+  const seen = new Map<string, string[]>();
+  const tests = new Map<string, string>();
+  for (const state of run.record.steps.test?.states ?? []) {
+    for (const text of state.warnings.filter(w => !w.includes('left out'))) {
+      const words = text.replace(/[\d.]+/g, '#');
+      const before = seen.get(words) ?? [];
+      const also = before.length > 0 ? ` (so at ${before.join(', ')})` : '';
+      tests.set(words, `At ${of(state.compaction)} compaction: ${text}${also}`);
+      seen.set(words, [...before, of(state.compaction)]);
+    }
+  }
+  return [...(run.record.steps.press?.warnings ?? []), ...tests.values()].map(text => ({level: 'warning', text}));
 }
 
 // Warnings first.

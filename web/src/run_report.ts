@@ -5,7 +5,8 @@ import {downloadText, button, el, fileName} from './dom';
 import {findingsOf} from './findings';
 import {unpack} from './frames';
 import {layupFigure} from './layup';
-import {SectionView} from './section';
+import {SectionView, type SectionOptions} from './section';
+import {slipState, type SlipState} from './slip';
 import {parseCsv, Table} from './table';
 import {toggleTheme} from './theme';
 
@@ -180,6 +181,46 @@ function modulusCharts(run: Run): Chart[] {
   });
 }
 
+// Density through the thickness, heights over those of the panel so that states can be compared.
+function profileChart(run: Run): Chart[] {
+  const profile = table(run, 'profile.csv');
+  if (!profile) return [];
+  const compactions = profile.distinct('compaction');
+  return [new Chart({
+    id: 'profile', title: 'Density profile', note: 'Voids included; one line per compaction.', xLabel: 'density, kg/m³',
+    yLabel: 'relative height',
+    series: compactions.map((value, i): Series => {
+      const state = profile.where('compaction', value);
+      return {name: percent(Number(value)), x: state.numbers('density_kg_m3'), y: state.numbers('relative_height'),
+              family: [i, compactions.length]};
+    }),
+    table: profile, y: {min: 0, max: 1}, item: true,
+    summary: 'Density against height in the panel, one line per compaction.',
+  })];
+}
+
+// glue_lines/slip_C.csv of each compaction C that was tested.
+function slips(run: Run): SlipState[] {
+  return run.case.compactions.flatMap(c => {
+    const text = run.tables[`glue_lines/slip_${c}.csv`];
+    const state = text === undefined ? undefined : slipState(c, text);
+    return state ? [state] : [];
+  });
+}
+
+// The profile of profile.csv at the compaction nearest to a frame, where there is one within half a percent.
+function measuredProfile(run: Run): SectionOptions['measuredProfile'] {
+  const profile = table(run, 'profile.csv');
+  if (!profile) return undefined;
+  const states = profile.distinct('compaction').map(value => ({compaction: Number(value), rows: profile.where('compaction', value)}));
+  return at => {
+    const state = states.find(s => Math.abs(s.compaction - at) < 0.005);
+    if (!state) return undefined;
+    const from = state.rows.numbers('from_mm'), to = state.rows.numbers('to_mm');
+    return {label: 'profile.csv', y_mm: from.map((v, i) => (v + to[i]!) / 2), density_kg_m3: state.rows.numbers('density_kg_m3')};
+  };
+}
+
 const quantities: Record<string, [string, string, number]> = {
   grain_angle_deg: ['Grain angle', 'grain angle against the panel, °', 1],
   strand_thickness_strain: ['Thickness strain of the strands', 'thickness strain, %', 100],
@@ -282,10 +323,10 @@ function stressAt(run: Run): ((compaction: number) => number | undefined) | unde
 export function runReport(run: Run): {title: string; content: Node[]; view?: SectionView} {
   const film = unpack(run.frames);
   const view = film.frames.length > 0 ? new SectionView(film, {
-    id: 'section', kinds: run.case.kinds.map(kind => kind.name), stressAt: stressAt(run),
+    id: 'section', kinds: run.case.kinds.map(kind => kind.name), stressAt: stressAt(run), measuredProfile: measuredProfile(run), slips: slips(run),
   }) : undefined;
   const grid = (charts: Chart[]) => (charts.length > 0 ? el('div', {class: 'grid'}, ...charts.map(chart => chart.element)) : null);
-  const press = pressCharts(run), moduli = modulusCharts(run), histograms = histogramCharts(run);
+  const press = pressCharts(run), moduli = modulusCharts(run), histograms = [...profileChart(run), ...histogramCharts(run)];
   const content = [
     header(run, {strands: film.strands.length}),
     tiles(run),
@@ -293,7 +334,7 @@ export function runReport(run: Run): {title: string; content: Node[]; view?: Sec
     findings(run),
     press.length > 0 ? section('Pressing', grid(press)) : null,
     moduli.length > 0 ? section('Stiffness', grid(moduli)) : null,
-    histograms.length > 0 ? section('Shape of the strands', grid(histograms)) : null,
+    histograms.length > 0 ? section('Density and shape', grid(histograms)) : null,
     section('The case', run.mat ? layupFigure(run.mat, run.case) : null, caseFacts(run)),
     provenance(run),
     el('footer', {}, `strandlab ${run.record.strandlab ?? ''}. The numbers are in the CSV files of the run folder.`),

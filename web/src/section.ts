@@ -1,12 +1,13 @@
 // The section of a panel through its pressing: drawn on a canvas, moved and magnified by pointer, touch and keys, played as a
 // film, coloured by what the reader chooses, with the density profile beside it at the same height scale.
 import {Chart} from './chart';
-import {css, interpolate} from './colour';
+import {css, interpolate, plasma} from './colour';
 import {byStrand, cellPixels, colouringsOf, fieldPixels, kindColour, strandPixels, type Colouring} from './colouring';
 import {button, choice, download, downloadText, el} from './dom';
 import {valueOf, type Film, type Frame} from './frames';
 import {profileOf} from './profile';
 import {drawCells, type Canvas} from './raster';
+import type {SlipState} from './slip';
 import {Table} from './table';
 import {colour, onThemeChange} from './theme';
 
@@ -14,7 +15,8 @@ export interface SectionOptions {
   id: string;       // names the downloads
   kinds: string[];  // in the order of the case, for their colours
   stressAt?: (compaction: number) => number | undefined;  // MPa
-  // Measured profile of the state nearest to a compaction.
+  slips?: SlipState[];  // of the states that were tested
+  // Density profile of the full state at a compaction, heights over the bottom face.
   measuredProfile?: (compaction: number) => {label: string; y_mm: number[]; density_kg_m3: number[]} | undefined;
 }
 
@@ -80,7 +82,7 @@ export class SectionView {
     this.playButton.classList.add('play');
     this.profile = new Chart({
       id: `${options.id}-profile`, title: 'Density through the thickness', xLabel: 'density, kg/m³', yLabel: '', series: [],
-      table: new Table([], []), summary: 'Mean density of slices of the panel, voids included.', bare: true,
+      table: new Table([], []), summary: 'Mean density of slices of the panel, voids included.', bare: true, item: true,
       grid: {left: 8, right: 12, top: margin.top + platen, bottom: margin.bottom + platen},
     });
     this.profile.host.className = 'plot profile';
@@ -104,6 +106,7 @@ export class SectionView {
       ...this.colourings.map(c => el('option', {value: c.key}, c.label)), el('option', {value: byStrand}, 'Strand'));
     const glue = el('input', {type: 'checkbox', change: () => {
       this.showGlue = glue.checked;
+      this.drawBar();
       this.redraw();
     }});
     this.stretch = 0;
@@ -372,6 +375,7 @@ export class SectionView {
     context.restore();
     this.drawAxes(context);
     this.drawProfile();
+    if (this.showGlue) this.drawBar();
     this.say();
   }
 
@@ -431,7 +435,29 @@ export class SectionView {
     }
   }
 
+  // The tested state that is on show, if it is one.
+  private get slip(): SlipState | undefined {
+    return this.options.slips?.find(state => Math.abs(state.compaction - this.frame.compaction) < 0.005);
+  }
+
+  private drawSlip(context: CanvasRenderingContext2D, state: SlipState): void {
+    const width = Math.min(6, 1.6 + 0.07 * this.yScale);
+    context.lineCap = 'round';
+    for (const {points, slip_um} of state.lines) {
+      for (let i = 0; i + 1 < slip_um.length; ++i) {
+        context.beginPath();
+        context.moveTo(this.toX(points[2 * i]!), this.toY(points[2 * i + 1]!));
+        context.lineTo(this.toX(points[2 * i + 2]!), this.toY(points[2 * i + 3]!));
+        context.strokeStyle = css(interpolate(plasma, (slip_um[i]! + slip_um[i + 1]!) / 2 / state.highest_um));
+        context.lineWidth = width;
+        context.stroke();
+      }
+    }
+  }
+
   private drawGlue(context: CanvasRenderingContext2D): void {
+    const state = this.slip;
+    if (state) return this.drawSlip(context, state);
     context.beginPath();
     for (const line of this.frame.glue) {
       const {points} = line;
@@ -486,7 +512,7 @@ export class SectionView {
     this.profile.update({
       series: [
         {name: '', x: now.density_kg_m3, y: now.y_mm, colour: colour('accent')},
-        ...(measured ? [{name: measured.label, x: measured.density_kg_m3, y: measured.y_mm, style: 'dashed' as const, ink: true}] : []),
+        ...(measured ? [{name: measured.label, x: measured.density_kg_m3, y: measured.y_mm.map(y => y + this.frame.bottom_mm), style: 'dashed' as const, ink: true}] : []),
       ],
       table: new Table(['compaction', 'y_mm', 'density_kg_m3'], rows),
       x: {min: 0, max: Math.ceil(highest / 200) * 200},
@@ -505,26 +531,32 @@ export class SectionView {
     this.canvas.dataset['frame'] = String(this.index);
   }
 
-  private drawBar(): void {
-    this.bar.replaceChildren();
-    if (this.colouring < 0) {
-      this.options.kinds.forEach((kind, i) => {
-        const swatch = el('i', {});
-        swatch.style.background = kindColour(i);
-        this.bar.append(el('span', {class: 'kind'}, swatch, kind));
-      });
-      return;
-    }
-    const c = this.colourings[this.colouring]!;
+  private ramp(label: string, map: Colouring['map'], low: number, high: number): HTMLElement[] {
     const strip = el('div', {class: 'strip'});
-    const colours = Array.from({length: 17}, (_, i) => css(interpolate(c.map, i / 16)));
-    strip.style.background = `linear-gradient(90deg, ${colours.join(', ')})`;
-    const scale = el('div', {class: 'scale'}, ...ticks(c.low, c.high, 5).map(value => {
+    strip.style.background = `linear-gradient(90deg, ${Array.from({length: 17}, (_, i) => css(interpolate(map, i / 16))).join(', ')})`;
+    const scale = el('div', {class: 'scale'}, ...ticks(low, high, 5).map(value => {
       const tick = el('span', {}, String(value).replace('-', '−'));
-      tick.style.left = `${(100 * (value - c.low)) / (c.high - c.low)}%`;
+      tick.style.left = `${(100 * (value - low)) / (high - low)}%`;
       return tick;
     }));
-    this.bar.append(el('span', {class: 'quantity'}, c.unit ? `${c.label}, ${c.unit}` : c.label), el('div', {class: 'ramp'}, strip, scale));
+    return [el('span', {class: 'quantity'}, label), el('div', {class: 'ramp'}, strip, scale)];
+  }
+
+  // What the colours mean.
+  private drawBar(): void {
+    this.bar.replaceChildren();
+    const c = this.colourings[this.colouring];
+    if (c) this.bar.append(...this.ramp(c.unit ? `${c.label}, ${c.unit}` : c.label, c.map, c.low, c.high));
+    else this.options.kinds.forEach((kind, i) => {
+      const swatch = el('i', {});
+      swatch.style.background = kindColour(i);
+      this.bar.append(el('span', {class: 'kind'}, swatch, kind));
+    });
+    const state = this.showGlue ? this.slip : undefined;
+    if (state) {
+      this.bar.append(...this.ramp(`Slip of glue lines of 1/Dₜ ${state.compliance_t_mm_per_MPa} mm/MPa in tension, µm at ` +
+        `${100 * state.strain} % strain`, plasma, 0, state.highest_um));
+    }
   }
 
   // The picture as it is shown, with its colour bar and caption.

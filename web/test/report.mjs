@@ -1,0 +1,325 @@
+// Opens reports in headless Chromium as a reader would: node report.mjs RUN_FOLDER HOSTILE_REPORT. Prints what does not hold.
+import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join, resolve} from 'node:path';
+import {chromium} from 'playwright-core';
+
+const [folder, hostile] = process.argv.slice(2).map(path => resolve(path));
+const browserPath = process.env.STRANDLAB_CHROMIUM ?? '/usr/bin/chromium';
+const profile = mkdtempSync(join(tmpdir(), 'strandlab_chromium_'));
+
+let failures = 0;
+function check(holds, message) {
+  if (holds) return;
+  ++failures;
+  console.log('FAILED:', message);
+}
+
+// A table of numbers and plain words.
+function csv(name) {
+  const [head, ...rows] = readFileSync(join(folder, name), 'utf8').trim().split('\n').map(line => line.split(','));
+  return rows.map(row => Object.fromEntries(head.map((column, i) => [column, row[i]])));
+}
+
+const near = (a, b) => Math.abs(a - b) <= 1e-12 * Math.max(1, Math.abs(a), Math.abs(b));
+function same(what, shown, expected) {
+  check(shown.length === expected.length, `${what}: ${shown.length} points, the table has ${expected.length}`);
+  const i = expected.findIndex((value, k) => !near(value[0], shown[k]?.[0]) || !near(value[1], shown[k]?.[1]));
+  check(i < 0, `${what}: point ${i} is ${shown[i]}, the table says ${expected[i]}`);
+}
+
+const context = await chromium.launchPersistentContext(profile, {
+  executablePath: browserPath, headless: true, acceptDownloads: true, viewport: {width: 1280, height: 900},
+  args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+         '--disable-component-update', '--disable-sync'],
+});
+
+async function open(file, options = {}) {
+  const page = await context.newPage();
+  if (options.width) await page.setViewportSize({width: options.width, height: 800});
+  await page.emulateMedia({colorScheme: options.scheme ?? 'light', reducedMotion: 'reduce'});
+  page.on('console', message => check(false, `${file}: the console says ${message.type()}: ${message.text()}`));
+  page.on('pageerror', error => check(false, `${file}: ${error}`));
+  page.on('dialog', dialog => {
+    check(false, `${file}: a dialog: ${dialog.message()}`);
+    dialog.dismiss();
+  });
+  page.on('request', request => check(request.url() === `file://${file}` || /^(data|blob):/.test(request.url()),
+    `${file}: a request for ${request.url().slice(0, 100)}`));
+  await page.goto(`file://${file}`);
+  await page.waitForFunction(() => document.querySelector('canvas.section')?.dataset.frame !== undefined);
+  await settled(page);
+  return page;
+}
+
+// Two frames of the browser: what was asked for is drawn.
+const settled = page => page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
+// Names, points and rendered paths of a chart.
+const chart = (page, id) => page.evaluate(name => {
+  const host = document.querySelector(`[data-chart="${name}"]`);
+  const shown = window.strandlab.charts.get(name);
+  return host && shown && {
+    series: shown.chart.getOption().series.map(s => ({name: s.name, data: s.data})),
+    paths: host.querySelectorAll('svg path').length,
+    label: host.querySelector('[aria-label]')?.getAttribute('aria-label') ?? '',
+  };
+}, id);
+// A number that stands for the picture.
+const picture = async page => {
+  await settled(page);
+  return page.evaluate(() => {
+    const canvas = document.querySelector('canvas.section');
+    const url = canvas.toDataURL();
+    let hash = url.length;
+    for (let i = 0; i < url.length; ++i) hash = (31 * hash + url.charCodeAt(i)) | 0;
+    return hash;
+  });
+};
+
+async function downloaded(page, button) {
+  const [download] = await Promise.all([page.waitForEvent('download'), button.click()]);
+  return readFileSync(await download.path());
+}
+
+// WCAG contrast of the text that is seen, and the lowest of all.
+const leastContrast = page => page.evaluate(() => {
+  const parse = text => (text.match(/[\d.]+/g) ?? [0, 0, 0, 0]).map(Number);
+  const luminance = ([r, g, b]) => [r, g, b].map(v => (v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+  const background = element => {
+    for (let e = element; e; e = e.parentElement) {
+      const colour = parse(getComputedStyle(e).backgroundColor);
+      if (colour.length < 4 || colour[3] > 0.99) return colour;
+    }
+    return [255, 255, 255];
+  };
+  let worst = {ratio: 99};
+  for (const element of document.querySelectorAll('main *, footer')) {
+    const words = [...element.childNodes].filter(n => n.nodeType === 3 && n.data.trim() !== '').map(n => n.data.trim()).join(' ');
+    const box = element.getBoundingClientRect();
+    if (!words || box.width < 2 || element.closest('.sr, .bubble[hidden], .layup')) continue;
+    const style = getComputedStyle(element);
+    const ink = parse(element instanceof SVGElement ? style.fill : style.color);
+    const [a, b] = [luminance(ink), luminance(background(element))].sort((x, y) => y - x);
+    const ratio = (a + 0.05) / (b + 0.05);
+    if (ratio < worst.ratio) worst = {ratio, words: words.slice(0, 40)};
+  }
+  return worst;
+});
+
+// ---- charts against the tables
+
+const report = join(folder, 'report.html');
+const run = JSON.parse(readFileSync(join(folder, 'mat.json'), 'utf8'));
+const page = await open(report);
+
+async function chartsShowTheTables() {
+  const press = csv('press.csv');
+  const stress = await chart(page, 'stress');
+  const column = name => press.map(row => [100 * row.compaction, Number(row[name])]);
+  same('top platen', stress.series[0].data, column('force_top_N').map(([c, f]) => [c, f / run.length_mm]));
+  same('bottom platen', stress.series[1].data, column('force_bottom_N').map(([c, f]) => [c, f / run.length_mm]));
+  same('mean stress', stress.series[2].data, column('stress_MPa'));
+  check(/stress/i.test(stress.label), `the stress chart says what it is: ${stress.label}`);
+  const energies = await chart(page, 'energies');
+  ['platen_work', 'plastic', 'elastic', 'friction', 'contact', 'filter', 'kinetic'].forEach((name, i) =>
+    same(name, energies.series[i].data, column(`${name}_mJ`)));
+
+  const moduli = csv('moduli.csv'), theory = csv('theory.csv');
+  for (const test of new Set(moduli.map(row => row.test))) {
+    const rows = moduli.filter(row => row.test === test);
+    const compactions = [...new Set(rows.map(row => row.compaction))];
+    const compliances = [...new Set(rows.map(row => row.compliance_t_mm_per_MPa))];
+    const models = [...new Set(theory.filter(row => row.test === test).map(row => row.model))];
+    const glue = await chart(page, `${test}-compliance`);
+    compactions.forEach((c, i) => same(`${test} at ${c}`, glue.series[i].data,
+      rows.filter(row => row.compaction === c).map(row => [Number(row.compliance_t_mm_per_MPa), Number(row.modulus_MPa)])));
+    check(glue.series.length === compactions.length * (1 + models.length), `${test}: lines of ${models} beside those simulated`);
+    for (const [suffix, x] of [['compaction', c => 100 * c], ['densification', c => 1 / (1 - c)]]) {
+      const over = await chart(page, `${test}-${suffix}`);
+      compliances.forEach((d, i) => same(`${test} of ${d}`, over.series[i].data,
+        rows.filter(row => row.compliance_t_mm_per_MPa === d).map(row => [x(Number(row.compaction)), Number(row.modulus_MPa)])));
+      check(over.paths > 10, `${test}-${suffix} is drawn`);
+      const model = theory.filter(row => row.test === test && row.model !== 'shear-lag' && row.compliance_t_mm_per_MPa === compliances[0]);
+      same(`theory of ${test}`, over.series[compliances.length].data, model.map(row => [x(Number(row.compaction)), Number(row.modulus_MPa)]));
+    }
+  }
+  const profiles = csv('profile.csv');
+  const shown = await chart(page, 'profile');
+  [...new Set(profiles.map(row => row.compaction))].forEach((c, i) => same(`profile at ${c}`, shown.series[i].data,
+    profiles.filter(row => row.compaction === c).map(row => [Number(row.density_kg_m3), Number(row.relative_height)])));
+  for (const id of ['histogram-grain_angle_deg', 'histogram-strand_thickness_strain', 'section-profile']) {
+    const any = await chart(page, id);
+    check(any && any.paths > 3 && any.series.some(s => s.data.length > 2), `${id} is drawn`);
+  }
+}
+
+// The profile beside the section is that of its frame: same mean density as the table's at the last compaction (to 2 %:
+// slices of lumped cells, a byte a value).
+async function frameProfileAgrees() {
+  const rows = csv('profile.csv');
+  const last = rows.filter(row => row.compaction === rows[rows.length - 1].compaction);
+  const expected = last.reduce((sum, row) => sum + (row.to_mm - row.from_mm) * row.density_kg_m3, 0) /
+                   last.reduce((sum, row) => sum + (row.to_mm - row.from_mm), 0);
+  const {series} = await chart(page, 'section-profile');
+  const mean = series[0].data.reduce((sum, point) => sum + point[0], 0) / series[0].data.length;
+  check(Math.abs(mean / expected - 1) < 0.02, `mean density of the last frame ${mean}, of profile.csv ${expected}`);
+}
+
+async function downloads() {
+  const button = (id, label) => page.locator(`[data-chart="${id}"]`).getByRole('button', {name: label});
+  const expected = ['compaction,time_ms,stress_MPa,force_top_N,force_bottom_N',
+    ...csv('press.csv').map(row => [row.compaction, row.time_ms, row.stress_MPa, row.force_top_N, row.force_bottom_N].join(','))].join('\n') + '\n';
+  check((await downloaded(page, button('stress', 'CSV'))).toString() === expected, 'the CSV of the stress chart is the table');
+  const moduli = readFileSync(join(folder, 'moduli.csv'), 'utf8').split('\n');
+  const tension = moduli.filter((line, i) => i === 0 || line.split(',')[1] === 'tension').join('\n') + '\n';
+  check((await downloaded(page, button('tension-compliance', 'CSV'))).toString() === tension, 'the CSV of a modulus chart is the table');
+  check(/^<svg[^>]*xmlns/.test((await downloaded(page, button('stress', 'SVG'))).toString()), 'the SVG of a chart');
+  check(/^<svg[^>]*xmlns/.test((await downloaded(page, button('layup', 'SVG'))).toString()), 'the SVG of the layup');
+  const png = await downloaded(page, page.getByRole('button', {name: 'Download this picture as PNG'}));
+  check(png.subarray(1, 4).toString() === 'PNG' && png.length > 3000, 'the PNG of the section');
+}
+
+// ---- the section view
+
+async function sliderMovesThePicture() {
+  const slider = page.getByRole('slider', {name: 'Compaction'});
+  const last = Number(await slider.getAttribute('max'));
+  const pictures = new Set();
+  for (const frame of [0, Math.floor(last / 2), last]) {
+    await slider.fill(String(frame));
+    pictures.add(await picture(page));
+  }
+  check(pictures.size === 3, `${pictures.size} different pictures at three compactions`);
+  const press = csv('press.csv');
+  const words = await page.locator('.status').textContent();
+  const stress = Number(press[press.length - 1].stress_MPa).toFixed(2);
+  check(words.includes('4.0 % compaction') && words.includes(`${stress} MPa`), `the last frame says "${words}", press.csv ${stress} MPa`);
+  // Keys on the slider, and the play button by keyboard, from the end on again to the end.
+  await slider.focus();
+  await page.keyboard.press('ArrowLeft');
+  await settled(page);
+  check(await slider.inputValue() === String(last - 1), 'the left arrow goes back a frame');
+  await page.getByRole('button', {name: 'Play the pressing'}).focus();
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(end => document.querySelector('canvas.section').dataset.frame === end, String(last), {timeout: 20000});
+  await page.getByRole('button', {name: 'Play the pressing'}).waitFor();
+}
+
+async function colourings() {
+  const select = page.getByLabel('Colour by');
+  const values = await select.locator('option').evaluateAll(options => options.map(o => o.value));
+  check(values.length === 6, `colourings: ${values}`);
+  const pictures = new Set();
+  for (const value of values) {
+    await select.selectOption(value);
+    pictures.add(await picture(page));
+  }
+  check(pictures.size === values.length, 'every colouring is a picture of its own');
+  const before = await picture(page);
+  await page.getByLabel('Glue lines').check();
+  check(await picture(page) !== before, 'glue lines are drawn');
+  await page.getByLabel('Glue lines').uncheck();
+  await select.selectOption(values[0]);
+}
+
+async function pointerAndKeys() {
+  const canvas = page.locator('canvas.section');
+  const box = await canvas.boundingBox();
+  await canvas.hover({position: {x: box.width / 3, y: box.height * 0.7}});
+  await settled(page);
+  const bubble = await page.locator('.bubble').textContent();
+  for (const part of ['Strand', 'surface', 'row 1', 'grain angle', 'kg/m³', 'plastic strain', 'MPa']) {
+    check(bubble.includes(part), `the strand under the pointer tells its ${part}: ${bubble}`);
+  }
+  await page.mouse.move(5, 5);
+  await canvas.focus();
+  const whole = await picture(page);
+  await page.keyboard.press('+');
+  const near = await picture(page);
+  check(near !== whole, 'plus magnifies');
+  await page.keyboard.press('ArrowRight');
+  check(await picture(page) !== near, 'an arrow key moves the section');
+  await page.keyboard.press('0');
+  check(await picture(page) === whole, 'zero shows all of it again');
+  await page.keyboard.press('n');
+  check((await page.locator('.readout').textContent()).startsWith('Strand 1: surface'), 'N steps to the first strand');
+  await page.keyboard.press('Escape');
+  await canvas.dblclick({position: {x: box.width / 2, y: box.height / 2}});
+  check(await picture(page) !== whole, 'a double click magnifies');
+  await page.keyboard.press('0');
+}
+
+// Everything that acts is reached by the tab key, and has a name.
+async function tabbing() {
+  await page.evaluate(() => document.activeElement?.blur());
+  const reached = new Set();
+  for (let i = 0; i < 90; ++i) {
+    await page.keyboard.press('Tab');
+    reached.add(await page.evaluate(() => {
+      const e = document.activeElement;
+      return e === document.body ? '' : e.getAttribute('aria-label') ?? e.labels?.[0]?.textContent ?? e.textContent;
+    }));
+  }
+  for (const name of ['Light or dark', 'Play the pressing', 'Compaction', 'Magnify more', 'Pressing stress: download the data as CSV']) {
+    check(reached.has(name), `the tab key reaches "${name}"`);
+  }
+}
+
+// ---- light, dark, narrow, paper
+
+async function legible(file, scheme, width) {
+  const other = await open(file, {scheme, width});
+  const where = `${scheme}, ${width} px`;
+  const page_ = await other.evaluate(() => [document.scrollingElement.scrollWidth, window.innerWidth,
+                                            getComputedStyle(document.body).backgroundColor]);
+  const wide = await other.evaluate(() => [...document.querySelectorAll('main *')].filter(e => !e.closest('svg, pre, .sr') &&
+    e.getBoundingClientRect().right > window.innerWidth + 0.5).map(e => `${e.tagName}.${e.className}`).slice(0, 4));
+  check(page_[0] <= page_[1] && wide.length === 0, `${where}: the page is ${page_[0]} px wide: ${wide}`);
+  const dark = page_[2].match(/\d+/g).map(Number).every(v => v < 60);
+  check(dark === (scheme === 'dark'), `${where}: background ${page_[2]}`);
+  const worst = await leastContrast(other);
+  check(worst.ratio >= 4.5, `${where}: "${worst.words}" has a contrast of ${worst.ratio.toFixed(2)} only`);
+  return other;
+}
+
+async function themes() {
+  for (const width of [1280, 390]) for (const scheme of ['light', 'dark']) await (await legible(report, scheme, width)).close();
+  await page.getByRole('button', {name: 'Light or dark'}).click();
+  check(await page.evaluate(() => document.documentElement.dataset.theme) === 'dark', 'the button turns the page dark');
+  await page.getByRole('button', {name: 'Light or dark'}).click();
+}
+
+async function paper() {
+  await page.emulateMedia({media: 'print'});
+  check(!await page.locator('.toolbar').isVisible() && await page.locator('canvas.section').isVisible(), 'paper shows pictures, not buttons');
+  const pdf = await page.pdf({format: 'A4'});
+  check(pdf.subarray(0, 4).toString() === '%PDF' && pdf.length > 30000, 'the page prints');
+  await page.emulateMedia({media: 'screen'});
+}
+
+async function hostileNames() {
+  for (const width of [1280, 390]) {
+    const other = await legible(hostile, 'light', width);
+    const name = JSON.parse(await other.locator('#data').textContent()).run.record.case_name;
+    check(name.includes('<script>') && await other.locator('h1').textContent() === name, 'the name is shown as it is');
+    const made = await other.evaluate(() => [...document.querySelectorAll('main script, main img, main b')]
+      .filter(e => e.tagName !== 'B' || e.textContent.startsWith('"')).length);
+    check(made === 0, `no name becomes an element: ${made}`);
+    check((await other.locator('.legend').textContent()).includes('</script><script>'), 'a strand kind is shown as it is');
+    await other.locator('canvas.section').focus();
+    await other.keyboard.press('n');
+    check((await other.locator('.readout').textContent()).includes('<script>'), 'the strand says its kind');
+    await other.close();
+  }
+}
+
+const steps = [chartsShowTheTables, frameProfileAgrees, downloads, sliderMovesThePicture, colourings, pointerAndKeys, tabbing, themes, paper, hostileNames];
+try {
+  for (const step of steps) await step().catch(error => check(false, `${step.name}: ${error.stack}`));
+} finally {
+  await context.close();
+  rmSync(profile, {recursive: true, force: true});
+}
+console.log('failures:', failures);
+process.exit(failures ? 1 : 0);
