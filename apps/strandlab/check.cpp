@@ -6,6 +6,7 @@
 
 #include "case_arguments.hpp"
 #include "commands.hpp"
+#include "composition.hpp"
 #include "duration.hpp"
 #include "strandlab/io/case_estimate.hpp"
 #include "strandlab/io/case_write.hpp"
@@ -20,7 +21,9 @@ void check(const CaseArguments& arguments) {
   const auto e = io::estimate(c, io::make_panel(c, mat));
   fmt::print("{}\n", io::resolved_text(c));
   fmt::print("# mat: {} rows, {} strands, {:g} x {:g} mm\n", mat.layers.size(), e.strands, mat.length_mm,
-             mat.layer_thickness_mm * static_cast<double>(mat.layers.size()));
+             mat.thickness_mm());
+  for (const auto& line : composition(io::weigh(c, mat))) fmt::print("# {}\n", line);
+  for (const auto& line : io::derived_constants(c)) fmt::print("# {}\n", line);
   fmt::print("# particles: {}\n# cells: {} of {:.4g} x {:.4g} mm\n", e.particles, e.cells, e.cell_length_mm,
              e.cell_height_mm);
   fmt::print("# steps: {:.0f} of {:.3g} s, {:.3g} ms of pressing\n", e.steps, e.time_step_s, 1e3 * e.pressing_time_s);

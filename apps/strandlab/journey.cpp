@@ -11,6 +11,7 @@
 #include <sstream>
 #include <thread>
 
+#include "composition.hpp"
 #include "git_hash.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/version.hpp"
@@ -56,6 +57,8 @@ Journey start(const CaseArguments& arguments, io::Step first) {
     folder.record()["date"] = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
   folder.record()["seed"] = c.seed;
   folder.record()["machine"] = machine();
+  folder.record()["mat"] = to_json(io::weigh(c, mat));
+  folder.record()["derived_constants"] = io::derived_constants(c);
   return {std::move(c), std::move(mat), std::move(panel), std::move(folder)};
 }
 
@@ -89,6 +92,7 @@ void do_mat(Journey& journey, Console& console) {
   folder.set_finished(io::Step::kMat);
   console.say(fmt::format("mat: {} rows, {} strands -> {}", journey.mat.layers.size(), journey.panel.strands.size(),
                           file.string()));
+  for (const auto& line : composition(io::weigh(journey.c, journey.mat))) console.say("mat: " + line);
 }
 
 }  // namespace strandlab::app

@@ -186,6 +186,7 @@ void do_press(Journey& journey, Console& console) {
   const auto resume = store.load<2>(&warnings);
   console.log_to(folder.file("log.txt"));
   for (const auto& warning : warnings) console.warn(warning);
+  for (const auto& line : io::derived_constants(journey.c)) console.say(line);
   const int threads = io::thread_count(journey.c);
   const auto particles = io::estimate(journey.c, journey.panel).particles;
   console.say(resume ? fmt::format("press: going on from compaction {:.4f}", resume->panel.compaction())

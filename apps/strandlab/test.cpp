@@ -64,7 +64,7 @@ std::vector<report::PanelModulus> moduli_of(const Json& states) {
 void write_plots(const Journey& journey, const std::vector<report::PanelModulus>& moduli, Console& console) {
   const auto plots = journey.folder.file("plots");
   fs::create_directories(plots);
-  const auto theory = theory_moduli(theory_rows(journey.c), journey.c.layer_thickness_mm, moduli);
+  const auto theory = theory_moduli(theory_rows(journey.c), moduli);
   theory_table(theory).write(journey.folder.file("theory.csv"));
   for (const auto kind : journey.c.test.kinds) {
     const std::string test = vtest::name(kind);

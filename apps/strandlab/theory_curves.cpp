@@ -27,7 +27,7 @@ report::Curve curve_of(const std::map<double, double>& points) {
 
 }  // namespace
 
-std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows, double row_thickness_mm,
+std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows,
                                          const std::vector<report::PanelModulus>& moduli) {
   constexpr auto kOffAxis = theory::OffAxis::kExact;
   const bool bridged = has_gaps_along(rows);
@@ -43,7 +43,7 @@ std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows, d
     add(kRuleOfMixtures, theory::tension_modulus_MPa(rows, m.compaction, kOffAxis));
     if (!bridged) continue;
     const double compliance = std::max(m.compliance_t_mm_per_MPa, 0.0);  // as the virtual tests take it
-    add(kShearLag, theory::shear_lag_panel_MPa(rows, row_thickness_mm, {}, compliance, m.compaction, kOffAxis));
+    add(kShearLag, theory::shear_lag_panel_MPa(rows, {}, compliance, m.compaction, kOffAxis));
   }
   return theory;
 }

@@ -23,7 +23,7 @@ struct TheoryModulus {
 // For each simulated modulus those of the models: tension by rule of mixtures and, where rows along the panel have gaps
 // that strands bridge through glue, by shear-lag; bending as a laminated beam. Rows off the grain are held in plane
 // strain, as the simulated ones are. Throws as the models.
-std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows, double row_thickness_mm,
+std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows,
                                          const std::vector<report::PanelModulus>& moduli);
 
 // compaction, model, test, compliance_t_mm_per_MPa, modulus_MPa; one row per value.

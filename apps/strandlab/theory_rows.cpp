@@ -13,7 +13,7 @@ namespace {
 theory::Row row_of_kind(const std::vector<StrandKind>& kinds, const std::string& name) {
   const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const StrandKind& k) { return k.name == name; });
   if (kind == kinds.end()) throw InputError(fmt::format("the case has no strand kind \"{}\"", name));
-  return {kind->material, kind->angle_deg, {}};
+  return {kind->material, kind->angle_deg, {}, 0, 0};
 }
 
 mat::StrandStatistics statistics_of(const mat::Layer& layer, double length_mm) {
@@ -25,22 +25,32 @@ mat::StrandStatistics statistics_of(const mat::Layer& layer, double length_mm) {
   return {mean, 0, mean * (length_mm / wood - 1), 0};
 }
 
+double spread_of(const io::Case& c, const std::string& name) {
+  const auto kind = std::find_if(c.kinds.begin(), c.kinds.end(), [&](const auto& k) { return k.name == name; });
+  return kind == c.kinds.end() ? 0 : kind->angle_spread_deg;
+}
+
 }  // namespace
 
 std::vector<theory::Row> theory_rows(const io::Case& c) {
   const auto kinds = io::strand_kinds(c);
   std::vector<theory::Row> rows;
   if (c.mat_file.empty()) {
-    for (const auto& given : io::layup(c).rows) {
+    const auto layup = io::layup(c);
+    for (const auto& given : layup.rows) {
       rows.push_back(row_of_kind(kinds, given.kind));
       rows.back().statistics = given.statistics;
+      rows.back().thickness_mm = given.thickness_mm.value_or(layup.layer_thickness_mm);
+      rows.back().angle_spread_deg = spread_of(c, given.kind);
     }
     return rows;
   }
   const auto mat = io::make_mat(c);
-  for (const auto& layer : mat.layers) {
-    rows.push_back(row_of_kind(kinds, layer.role));
-    rows.back().statistics = statistics_of(layer, mat.length_mm);
+  for (std::size_t i = 0; i < mat.layers.size(); ++i) {
+    rows.push_back(row_of_kind(kinds, mat.layers[i].role));
+    rows.back().statistics = statistics_of(mat.layers[i], mat.length_mm);
+    rows.back().thickness_mm = mat.thickness_of(i);
+    rows.back().angle_spread_deg = spread_of(c, mat.layers[i].role);
   }
   return rows;
 }

@@ -167,10 +167,6 @@ bool near(const Box& a, const Box& b, double distance) {
   return ((a.low - b.high).array() < distance).all() && ((b.low - a.high).array() < distance).all();
 }
 
-double formed_thickness(const Strand<2>& strand) {
-  return strand.points[1] * strand.spacing[1];
-}
-
 void check(const CuringOptions& options) {
   if (!(options.max_gap_mm > 0) || !std::isfinite(options.max_gap_mm)) {
     throw InputError(fmt::format("curing gap of {} mm: it must be positive", options.max_gap_mm));

@@ -1,6 +1,7 @@
 #include "strandlab/io/case.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -8,6 +9,7 @@
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/io/case_estimate.hpp"
+#include "strandlab/wood/species.hpp"
 
 namespace strandlab::io {
 namespace {
@@ -48,7 +50,34 @@ wood::Material find_material(const Case& c, const std::string& name) {
   for (const auto& built_in : wood::library()) {
     if (built_in.name == name) return built_in;
   }
-  throw InputError(fmt::format("there is no material \"{}\"", name));
+  std::vector<std::string> names;
+  for (const auto& built_in : wood::library()) names.push_back(built_in.name);
+  for (const auto& user : c.materials) names.push_back(user.material.name);
+  const auto near = nearest(name, names);
+  throw InputError(fmt::format("there is no material \"{}\"{} Materials: {}", name,
+                               near.empty() ? "." : fmt::format("; did you mean \"{}\"?", near), quoted_list(names)));
+}
+
+// Kinds of the case, and one for each of its materials: a strand of a mat file may name any of them, also one that no
+// kind uses.
+std::vector<StrandKind> kinds_and_materials(const Case& c) {
+  auto kinds = strand_kinds(c);
+  for (const auto& user : c.materials) {
+    StrandKind kind;
+    kind.name = "material " + user.material.name;
+    kind.material = user.material;
+    kinds.push_back(kind);
+  }
+  return kinds;
+}
+
+mat::LayupRow layup_row(const KindSettings& kind) {
+  mat::LayupRow row;
+  row.kind = kind.name;
+  row.statistics = kind.statistics;
+  if (kind.thickness_mm > 0) row.thickness_mm = kind.thickness_mm;
+  if (kind.angle_spread_deg > 0) row.angles_deg = mat::AngleRange{kind.angle_deg, kind.angle_spread_deg};
+  return row;
 }
 
 }  // namespace
@@ -63,14 +92,17 @@ mat::Layup layup(const Case& c) {
   for (const auto& text : c.rows) {
     const auto row = parse_row(text);
     const auto& kind = find_kind(c, row.first, text);
-    result.rows.insert(result.rows.end(), static_cast<std::size_t>(row.second), {kind.name, kind.statistics});
+    result.rows.insert(result.rows.end(), static_cast<std::size_t>(row.second), layup_row(kind));
   }
   return result;
 }
 
 std::vector<StrandKind> strand_kinds(const Case& c) {
   std::vector<StrandKind> kinds;
-  for (const auto& kind : c.kinds) kinds.push_back({kind.name, find_material(c, kind.material), kind.angle_deg});
+  for (const auto& kind : c.kinds) {
+    kinds.push_back(
+        {kind.name, find_material(c, kind.material), kind.angle_deg, kind.yield_factor, kind.stiffness_factor});
+  }
   return kinds;
 }
 
@@ -78,13 +110,28 @@ mat::Mat make_mat(const Case& c) {
   return c.mat_file.empty() ? mat::form(layup(c), c.seed) : mat::read(c.mat_file, kind_names(c));
 }
 
+Weight weigh(const Case& c, const mat::Mat& mat) {
+  return strandlab::weigh(mat, kinds_and_materials(c));
+}
+
+std::vector<std::string> derived_constants(const Case& c) {
+  std::vector<std::string> lines;
+  for (const auto& settings : c.materials) {
+    if (settings.species.empty()) continue;
+    const auto names = wood::constants_from_ratios(settings.material, wood::find_species(settings.species));
+    if (names.empty()) continue;
+    lines.push_back(
+        fmt::format("material {}: {} follow from E_L = {} MPa by the elastic ratios of {} (USDA Wood Handbook, tables "
+                    "5-1 and 5-2)",
+                    settings.material.name, fmt::join(names, ", "), settings.material.E_L, settings.species));
+  }
+  return lines;
+}
+
 Panel<2> make_panel(const Case& c, const mat::Mat& mat) {
   refuse_too_large(c, mat);
-  auto kinds = strand_kinds(c);
-  // A strand of a mat file may name any material of the case, also one that no kind uses.
-  for (const auto& user : c.materials) kinds.push_back({"material " + user.material.name, user.material, 0});
-  const double cell_height = mat.layer_thickness_mm / c.grid.cells_through_strand;
-  return strandlab::make_panel(mat, kinds, cell_height * c.grid.cell_aspect / kPointsPerCell,
+  const double cell_height = mat::thinnest_layer(mat) / c.grid.cells_through_strand;
+  return strandlab::make_panel(mat, kinds_and_materials(c), cell_height * c.grid.cell_aspect / kPointsPerCell,
                                c.grid.cells_through_strand * kPointsPerCell);
 }
 

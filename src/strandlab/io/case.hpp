@@ -19,12 +19,16 @@ struct KindSettings {
   std::string name;
   std::string material = "poplar";  // built in, or one of [materials]
   double angle_deg = 0;
-  mat::StrandStatistics statistics;  // mm
+  mat::StrandStatistics statistics;               // mm
+  double angle_spread_deg = 0;                    // each strand's angle is uniform within angle_deg +- this
+  double thickness_mm = 0;                        // 0: layer_thickness_mm of the case
+  double yield_factor = 1, stiffness_factor = 1;  // softening in the press, StrandKind
 };
 
 // [materials.NAME]: a user's material, a built-in one with some constants changed.
 struct MaterialSettings {
   std::string base = "poplar";
+  std::string species;  // elastic constants that are not given follow from E_L by its ratios; empty: from the base
   wood::Material material;
 };
 
@@ -59,17 +63,23 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
 // The same from the text of a case; `source` stands for the file in messages.
 Case case_from_text(const std::string& text, const std::string& source, const std::vector<std::string>& overrides = {});
 
-// Ready cases of `strandlab init`: "osb", "osl", "plywood", "lvl". Throws InputError for another name.
+// Ready cases of `strandlab init`: "osb", "osl", "plywood", "lvl", ... Throws InputError for another name.
 const std::vector<std::string>& ready_cases();
 Case ready_case(const std::string& name);
-// One line on what it is: "OSB: ...".
+// What it is: lines of text, the first a title.
 std::string ready_case_title(const std::string& name);
 
-// Rows of the layup with the statistics of their kinds. Throws InputError for a row that names no kind.
+// Rows of the layup with the statistics, thickness and angles of their kinds. Throws InputError for a row that names no
+// kind.
 mat::Layup layup(const Case& c);
 std::vector<StrandKind> strand_kinds(const Case& c);
 // The mat of a case: read from its mat file, else formed with its seed. Throws InputError for a bad mat file.
 mat::Mat make_mat(const Case& c);
+// Its weight and what it is made of.
+Weight weigh(const Case& c, const mat::Mat& mat);
+// One line for each of the case's materials whose constants follow from a species' ratios: which, from what, and where
+// the ratios are from.
+std::vector<std::string> derived_constants(const Case& c);
 // The panel before pressing, with the material points of the case's grid. Throws InputError when it does not fit into
 // the memory of this machine.
 Panel<2> make_panel(const Case& c, const mat::Mat& mat);

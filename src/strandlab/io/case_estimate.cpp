@@ -30,20 +30,22 @@ double memory_bytes(double particles) {
 double transit_time(const Panel<2>& panel, double cell_length, double cell_height) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const auto& strand : panel.strands) {
-    const double along = std::sqrt(strand.material.stiffness(0, 0) / strand.material.density);
-    const double through = std::sqrt(strand.material.stiffness(2, 2) / strand.material.density);
+    const double specific = strand.stiffness_factor / strand.material.density;
+    const double along = std::sqrt(strand.material.stiffness(0, 0) * specific);
+    const double through = std::sqrt(strand.material.stiffness(2, 2) * specific);
     shortest = std::min({shortest, cell_length / along, cell_height / through});
   }
   return shortest;
 }
 
-// Elements of the virtual tests: as many through each strand as the case says, about as long as high.
+// Elements of the virtual tests: as many through the thinnest strand as the case says.
 double elements(const Case& c, const Panel<2>& panel) {
-  const double through = c.test.elements_through_strand;
+  const double thinnest = thinnest_strand(panel);
   double count = 0;
   for (const auto& strand : panel.strands) {
-    const double length = strand.points[0] * strand.spacing[0], height = strand.points[1] * strand.spacing[1];
-    count += through * length / (height / through * c.grid.cell_aspect);
+    const double length = strand.points[0] * strand.spacing[0];
+    const int through = mat::through(formed_thickness(strand), thinnest, c.test.elements_through_strand);
+    count += through * length / (thinnest / c.test.elements_through_strand * c.grid.cell_aspect);
   }
   return count;
 }
@@ -51,13 +53,16 @@ double elements(const Case& c, const Panel<2>& panel) {
 }  // namespace
 
 double particle_count(const Case& c, const mat::Mat& mat) {
-  const double through = c.grid.cells_through_strand * kPointsPerCell;
-  const double spacing = mat.layer_thickness_mm / through * c.grid.cell_aspect;
-  double length = 0;
-  for (const auto& layer : mat.layers) {
-    for (const auto& strand : layer.strands) length += strand.x1_mm - strand.x0_mm;
+  const int through = c.grid.cells_through_strand * kPointsPerCell;
+  const double thinnest = mat::thinnest_layer(mat);
+  const double spacing = thinnest / through * c.grid.cell_aspect;
+  double points = 0;
+  for (std::size_t i = 0; i < mat.layers.size(); ++i) {
+    double length = 0;
+    for (const auto& strand : mat.layers[i].strands) length += strand.x1_mm - strand.x0_mm;
+    points += mat::through(mat.thickness_of(i), thinnest, through) * length / spacing;
   }
-  return through * length / spacing;
+  return points;
 }
 
 void refuse_too_large(const Case& c, const mat::Mat& mat) {
@@ -77,12 +82,8 @@ int thread_count(const Case& c) {
 Estimate estimate(const Case& c, const Panel<2>& panel) {
   Estimate e;
   e.strands = panel.strands.size();
-  double highest_strand = 0;
-  for (const auto& strand : panel.strands) {
-    e.particles += strand.size();
-    highest_strand = std::max(highest_strand, strand.points[1] * strand.spacing[1]);
-  }
-  e.cell_height_mm = highest_strand / c.grid.cells_through_strand;
+  for (const auto& strand : panel.strands) e.particles += strand.size();
+  e.cell_height_mm = thinnest_strand(panel) / c.grid.cells_through_strand;
   e.cell_length_mm = e.cell_height_mm * c.grid.cell_aspect;
   e.cells = static_cast<std::size_t>(std::ceil(panel.length_mm / e.cell_length_mm) *
                                      std::ceil(panel.initial_thickness_mm / e.cell_height_mm));

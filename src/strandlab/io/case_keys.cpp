@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/wood/species.hpp"
 
 namespace strandlab::io {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 const Range kAny{};
 const Range kPositive{.lo = 0, .lo_open = true};
 const Range kNotNegative{.lo = 0};
+const Range kSoftening{.lo = 0, .hi = 1, .lo_open = true};
 const Range kPositiveOrInfinite{.lo = 0, .lo_open = true, .infinite = true};
 
 // Between the members of Case and the value types of TOML.
@@ -156,12 +158,34 @@ Key base_key() {
   return key;
 }
 
+// Read after E_L and before the other constants, which are then what the user gives or what the ratios make of E_L.
+Key species_key() {
+  Key key = material_key(
+      "species", "", kAny,
+      "species whose elastic ratios (USDA Wood Handbook) give the elastic constants that are not given from E_L_MPa; "
+      "\"\": those of the base",
+      [](auto& m) -> auto& { return m.species; });
+  key.choices = [](const Case&) {
+    std::vector<std::string> names{""};
+    for (const auto& s : wood::species()) names.push_back(s.name);
+    return names;
+  };
+  key.set = [](Case& c, const std::string& name, const Value& value) {
+    auto& settings = find_named(
+        c.materials, name, [](const MaterialSettings& m) -> const auto& { return m.material.name; });
+    settings.species = std::get<std::string>(value);
+    if (settings.species.empty()) return;
+    settings.material = wood::with_ratios(settings.material, wood::find_species(settings.species));
+  };
+  return key;
+}
+
 void add_mat_keys(std::vector<Key>& t) {
   t.push_back(key(
       "mat.length_mm", "mm", {.lo = 0, .hi = 1e5, .lo_open = true}, "length of the specimen along the panel",
       [](auto& c) -> auto& { return c.length_mm; }));
   t.push_back(key(
-      "mat.layer_thickness_mm", "mm", kPositive, "thickness of every strand",
+      "mat.layer_thickness_mm", "mm", kPositive, "thickness of strands whose kind has none of its own",
       [](auto& c) -> auto& { return c.layer_thickness_mm; }));
   t.push_back(key(
       "mat.rows", "", kAny, "rows of strands, bottom to top: \"kind\" or \"kind*count\"",
@@ -181,6 +205,13 @@ void add_kind_keys(std::vector<Key>& t) {
       "angle_deg", "degrees", {.lo = -180, .hi = 180}, "grain against the section, 0 along the panel",
       [](auto& k) -> auto& { return k.angle_deg; }));
   t.push_back(kind_key(
+      "angle_spread_deg", "degrees", {.lo = 0, .hi = 90},
+      "each strand has its own angle, uniform within angle_deg +- this; 90: any angle",
+      [](auto& k) -> auto& { return k.angle_spread_deg; }));
+  t.push_back(kind_key(
+      "thickness_mm", "mm", kNotNegative, "thickness of the strands; 0: mat.layer_thickness_mm",
+      [](auto& k) -> auto& { return k.thickness_mm; }));
+  t.push_back(kind_key(
       "length_mm", "mm", kNotNegative, "mean length of a strand in the section; 0 with gap 0: one strand fills the row",
       [](auto& k) -> auto& { return k.statistics.length_mm; }));
   t.push_back(kind_key(
@@ -192,6 +223,13 @@ void add_kind_keys(std::vector<Key>& t) {
   t.push_back(kind_key(
       "gap_sd_mm", "mm", kNotNegative, "its standard deviation, at most the mean",
       [](auto& k) -> auto& { return k.statistics.gap_sd_mm; }));
+  t.push_back(kind_key(
+      "yield_factor", "", kSoftening, "softening in the hot press: yield stresses and hardening_K over the material's",
+      [](auto& k) -> auto& { return k.yield_factor; }));
+  t.push_back(kind_key(
+      "stiffness_factor", "", kSoftening,
+      "softening in the hot press: elastic moduli over the material's; virtual tests are cold and take the material's",
+      [](auto& k) -> auto& { return k.stiffness_factor; }));
 }
 
 // A positive constant of wood in MPa (or kg/m^3, or no unit).
@@ -204,6 +242,7 @@ Key constant(const std::string& name, const std::string& unit, Range range, std:
 void add_material_keys(std::vector<Key>& t) {
   using M = wood::Material;
   t.push_back(base_key());
+  t.push_back(species_key());
   t.push_back(constant("density_kg_m3", "kg/m3", kPositive, "density as formed", &M::density_kg_m3));
   t.push_back(constant("E_L_MPa", "MPa", kPositive, "Young's modulus along the grain", &M::E_L));
   t.push_back(constant("E_R_MPa", "MPa", kPositive, "Young's modulus, radial (through the strand)", &M::E_R));
@@ -351,7 +390,8 @@ const std::vector<Section>& sections() {
   static const std::vector<Section> list{
       {"mat", "the mat before pressing"},
       {"kinds.*", "a kind of strand, named in mat.rows and in mat files; \"surface\" and \"core\" are always there"},
-      {"materials.*", "a material of your own: a built-in one with some constants changed"},
+      {"materials.*",
+       "a material of your own: a built-in one with some constants changed, or E_L_MPa with the ratios of a species"},
       {"press", "the press"},
       {"grid", "resolution of the pressing simulation"},
       {"glue", "glue lines of the cured panel"},
@@ -402,7 +442,11 @@ std::string type_name(const Value& value) {
 }
 
 std::string allowed(const Key& key, const Case& c) {
-  if (key.choices) return fmt::format("one of {}", fmt::join(key.choices(c), ", "));
+  if (key.choices) {
+    auto names = key.choices(c);
+    std::replace(names.begin(), names.end(), std::string(), std::string("\"\""));
+    return fmt::format("one of {}", fmt::join(names, ", "));
+  }
   return describe(key.range);
 }
 

@@ -408,10 +408,14 @@ void check_case(const Case& c, const std::vector<Given>& given, const std::strin
   }
 }
 
-// Base materials before their constants, materials before the kinds that name them.
+// Base materials before their constants, E_L before the species whose ratios it scales, those before the constants they
+// give, materials before the kinds that name them.
 int order_of(const Given& given) {
-  if (given.path[0] != "materials") return 2;
-  return given.path.back() == "base" ? 0 : 1;
+  if (given.path[0] != "materials") return 4;
+  const auto& key = given.path.back();
+  if (key == "base") return 0;
+  if (key == "E_L_MPa") return 1;
+  return key == "species" ? 2 : 3;
 }
 
 // A file name that counts from `folder`; an empty one stays empty.

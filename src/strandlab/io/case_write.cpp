@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdint>
 
@@ -23,6 +24,10 @@ void for_each_key(const std::string& section, Visit visit) {
   }
 }
 
+const Section& find_section(const std::string& path) {
+  return *std::find_if(sections().begin(), sections().end(), [&](const Section& s) { return s.path == path; });
+}
+
 // "mm/MPa; greater than 0", what there is of it.
 std::string unit_and_range(const Key& key, const Case& c) {
   const auto rule = allowed(key, c);
@@ -42,7 +47,7 @@ std::string example_material() {
   settings.base = settings.material.name;
   settings.material.name = "NAME";
   c.materials.push_back(settings);
-  std::string text = "# [materials.NAME]  # a material of your own: a built-in one with some constants changed\n";
+  std::string text = fmt::format("# [materials.NAME]  # {}\n", find_section("materials.*").help);
   for_each_key("materials.*", [&](const Key& key) {
     text += fmt::format("# {} = {}  # {}\n", name_of(key), to_toml(key.get(c, "NAME")), comment(key, c));
   });
@@ -57,7 +62,10 @@ Step step_of(const std::string& section) {
 // Default of a key as the reference page shows it; kinds differ in theirs.
 std::string default_text(const Key& key, const Case& defaults) {
   const auto section = section_of(key);
-  if (section == "materials.*") return name_of(key) == "base" ? "\"poplar\"" : "that of the base";
+  if (section == "materials.*") {
+    if (name_of(key) == "base") return "\"poplar\"";
+    return name_of(key) == "species" ? "\"\"" : "that of the base";
+  }
   if (section != "kinds.*") return to_toml(key.get(defaults, ""));
   const auto surface = to_toml(key.get(defaults, "surface")), core = to_toml(key.get(defaults, "core"));
   return surface == core ? surface : fmt::format("{}; core {}", surface, core);
@@ -93,8 +101,9 @@ std::string resolved_text(const Case& c) {
 }
 
 std::string commented_text(const Case& c, const std::string& title) {
-  std::string text =
-      fmt::format("# {}\n# Any key that is left out has the value shown by `strandlab init osb`.\n\n", title);
+  std::string text = "# " + title;
+  for (auto end = text.find('\n'); end != std::string::npos; end = text.find('\n', end + 1)) text.insert(end + 1, "# ");
+  text += "\n# Any key that is left out has the value shown by `strandlab init osb`.\n\n";
   for (const auto& section : sections()) {
     const auto names = instances(c, section.path);
     if (names.empty()) text += example_material();
@@ -122,9 +131,10 @@ std::string reference_text() {
         "\n## [{}]\n\n{}\n\n| key | type | unit | allowed | default | meaning |\n|---|---|---|---|---|---|\n", title,
         sentence(section.help));
     for_each_key(section.path, [&](const Key& key) {
-      const auto example = section.path == "materials.*"
-                               ? (name_of(key) == "base" ? Value(std::string()) : Value(0.0))
-                               : key.get(defaults, section.path == "kinds.*" ? "surface" : "");
+      const auto example =
+          section.path == "materials.*"
+              ? (name_of(key) == "base" || name_of(key) == "species" ? Value(std::string()) : Value(0.0))
+              : key.get(defaults, section.path == "kinds.*" ? "surface" : "");
       text += fmt::format("| `{}` | {} | {} | {} | `{}` | {} |\n", name_of(key), type_name(example), key.unit,
                           cell(allowed(key, defaults)), default_text(key, defaults), cell(key.help));
     });

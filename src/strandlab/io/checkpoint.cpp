@@ -114,12 +114,14 @@ void visit_frame(AnyPanel& panel, const Visit& visit) {
 // number).
 template <class AnyStrand, class Visit>
 void visit_strand(AnyStrand& strand, const Visit& visit) {
-  auto& [kind, row, angle, material, points, spacing, x, v, F, stress, plastic] = strand;
+  auto& [kind, row, angle, material, stiffness_factor, points, spacing, x, v, F, stress, plastic] = strand;
   static_cast<void>(std::tie(kind, row, points, x, v, F, stress, plastic));  // in datasets of their own
   auto& [density, stiffness, hill, yield, hardening_K, hardening_n] = material;
   const auto dim = static_cast<hsize_t>(spacing.size());
   visit("angle_deg", Label{"deg", "grain against the section"}, Shape{}, &angle);
   visit("spacing_mm", Label{"mm", "of the material points at formation"}, Shape{dim}, spacing.data());
+  visit("stiffness_factor", Label{"1", "elastic stiffness in the press over stiffness_MPa"}, Shape{},
+        &stiffness_factor);
   visit("density_t_mm3", Label{"t/mm^3", "density at formation"}, Shape{}, &density);
   visit("stiffness_MPa", Label{"MPa", "strand axes, Voigt 11 22 33 23 13 12"}, Shape{6, 6}, stiffness.data());
   visit("hill_per_MPa2", Label{"1/MPa^2", "f^2 = s^T hill s, strand axes"}, Shape{6, 6}, hill.data());

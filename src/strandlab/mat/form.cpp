@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kShortestStrand = 1e-3;  // mm, mean length: far below any strand, far above the resolution
 constexpr double kLongestMat = 1e9;       // mm: places stay exact in whole 1e-6 mm
+constexpr double kAnglesPerDegree = 1e3;  // angles are whole multiples of its inverse
+constexpr std::uint64_t kAngleStreams = std::uint64_t{1} << 32;  // streams of rows' angles; those of places lie below
 
 Ticks ticks(double mm) {
   return std::llround(mm * kTicksPerMm);
@@ -60,20 +62,31 @@ void check_normal(const std::string& where, const char* name, double mean, doubl
   }
 }
 
+void check_angles(const std::string& where, const AngleRange& angles) {
+  if (!std::isfinite(angles.mean_deg)) {
+    throw InputError(fmt::format("{}: angle = {} degrees must be a finite number", where, angles.mean_deg));
+  }
+  if (!(angles.spread_deg >= 0) || !(angles.spread_deg <= 90)) {
+    throw InputError(
+        fmt::format("{}: angle spread = {} degrees must be between 0 and 90 (any angle)", where, angles.spread_deg));
+  }
+}
+
 void check(const Layup& layup) {
-  const auto positive = [](const char* name, double value) {
+  const auto positive = [](const std::string& what, double value) {
     if (!(value >= kShortestStrand) || !(value <= kLongestMat)) {
-      throw InputError(
-          fmt::format("layup: {} = {} must be between {} and {} mm", name, value, kShortestStrand, kLongestMat));
+      throw InputError(fmt::format("{} = {} must be between {} and {} mm", what, value, kShortestStrand, kLongestMat));
     }
   };
-  positive("length_mm", layup.length_mm);
-  positive("layer_thickness_mm", layup.layer_thickness_mm);
+  positive("layup: length_mm", layup.length_mm);
+  positive("layup: layer_thickness_mm", layup.layer_thickness_mm);
   if (layup.rows.empty()) throw InputError("layup: no rows; a mat has at least one");
   for (std::size_t i = 0; i < layup.rows.size(); ++i) {
     const auto& row = layup.rows[i];
     const auto where = fmt::format("layup: row {} (\"{}\")", i + 1, row.kind);
     if (row.kind.empty()) throw InputError(fmt::format("{}: the strand kind has no name", where));
+    if (row.thickness_mm) positive(where + ": thickness_mm", *row.thickness_mm);
+    if (row.angles_deg) check_angles(where, *row.angles_deg);
     if (fills_row(row.statistics)) continue;
     check_normal(where, "length", row.statistics.length_mm, row.statistics.length_sd_mm, kShortestStrand);
     check_normal(where, "gap", row.statistics.gap_mm, row.statistics.gap_sd_mm, 0);
@@ -99,6 +112,25 @@ std::vector<Strand> form_row(const LayupRow& row, Ticks window, RandomStream ran
   return strands;
 }
 
+// Uniform within the range, rounded: the same on every machine.
+double draw_angle(const AngleRange& angles, RandomStream& random) {
+  const double angle = angles.mean_deg + angles.spread_deg * (2 * random.uniform() - 1);
+  return static_cast<double>(std::llround(angle * kAnglesPerDegree)) / kAnglesPerDegree;
+}
+
+Layer form_layer(const Layup& layup, std::size_t i, Ticks window, std::uint64_t seed) {
+  const auto& row = layup.rows[i];
+  Layer layer;
+  layer.role = row.kind;
+  if (row.thickness_mm && *row.thickness_mm != layup.layer_thickness_mm) layer.thickness_mm = row.thickness_mm;
+  layer.strands = form_row(row, window, RandomStream(seed, i));
+  if (row.angles_deg) {
+    RandomStream random(seed, kAngleStreams + i);
+    for (auto& strand : layer.strands) strand.angle_deg = draw_angle(*row.angles_deg, random);
+  }
+  return layer;
+}
+
 }  // namespace
 
 std::vector<RowStrand> stationary_row(const StrandStatistics& statistics, Ticks window, RandomStream& random) {
@@ -120,9 +152,7 @@ Mat form(const Layup& layup, std::uint64_t seed) {
   mat.length_mm = mm(window);
   mat.layer_thickness_mm = layup.layer_thickness_mm;
   for (std::size_t i = 0; i < layup.rows.size(); ++i) {
-    Layer layer;
-    layer.role = layup.rows[i].kind;
-    layer.strands = form_row(layup.rows[i], window, RandomStream(seed, i));
+    Layer layer = form_layer(layup, i, window, seed);
     if (layer.strands.empty()) {
       throw InputError(
           fmt::format("layup: row {} (\"{}\"): the window of {} mm lies within one gap and the row has no "

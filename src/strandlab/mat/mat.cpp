@@ -20,12 +20,13 @@ using Json = nlohmann::json;
 using Keys = std::vector<std::string>;
 
 const Keys kMatKeys{"length_mm", "layer_thickness_mm", "layers"};
-const Keys kLayerKeys{"role", "strands"};
+const Keys kLayerKeys{"role", "thickness_mm", "strands"};
 const Keys kStrandKeys{"x0", "x1", "angle_deg", "material"};
 
 constexpr double kResolution = 1e6;      // coordinates are whole multiples of 1/kResolution mm
 constexpr double kLongestMat = 1e9;      // mm
 constexpr double kThinnestLayer = 1e-3;  // mm
+constexpr double kMostThrough = 1e6;     // points through a layer: beyond any memory, within an int
 
 [[noreturn]] void reject(const std::string& where, const std::string& what) {
   throw InputError(fmt::format("{}: {}", where, what));
@@ -104,6 +105,7 @@ Layer layer_from(const Json& json, const std::string& where) {
   require_object(json, where);
   Layer layer;
   layer.role = text(member(json, "role", kLayerKeys, where), "role", where);
+  if (json.contains("thickness_mm")) layer.thickness_mm = number(json["thickness_mm"], "thickness_mm", "mm", where);
   const Json& strands = list(member(json, "strands", kLayerKeys, where), "strands", where);
   for (std::size_t i = 0; i < strands.size(); ++i) {
     layer.strands.push_back(strand_from(strands[i], at_strand(where, i)));
@@ -151,6 +153,11 @@ Json parse(const std::string& content, const std::string& source) {
   } catch (const Json::exception& error) {
     reject(source, "not valid JSON: " + parser_reason(error.what()));
   }
+}
+
+void check_thickness(const char* key, double thickness_mm, const std::string& where) {
+  if (thickness_mm >= kThinnestLayer && thickness_mm <= kLongestMat) return;
+  reject(where, fmt::format("{} = {} must be between {} and {} mm", key, thickness_mm, kThinnestLayer, kLongestMat));
 }
 
 void check_strand(const Mat& mat, const Strand& s, const std::string& where) {
@@ -214,26 +221,54 @@ std::string strand_text(const Strand& s) {
 }
 
 std::string layer_text(const Layer& layer) {
-  auto out = fmt::format("  {{\"role\":{}{}, \"strands\":[", Json(layer.role).dump(), members(layer.extra, ", "));
+  auto out = fmt::format("  {{\"role\":{}", Json(layer.role).dump());
+  if (layer.thickness_mm) out += ", \"thickness_mm\":" + Json(*layer.thickness_mm).dump();
+  out += members(layer.extra, ", ") + ", \"strands\":[";
   for (std::size_t i = 0; i < layer.strands.size(); ++i) out += (i ? ", " : "") + strand_text(layer.strands[i]);
   return out + "]}";
 }
 
 }  // namespace
 
+double Mat::thickness_of(std::size_t layer) const {
+  return layers[layer].thickness_mm.value_or(layer_thickness_mm);
+}
+
+// Layers that are alike are counted, not summed: twenty of .8 mm are 16 mm to the last bit.
+double Mat::height_below(std::size_t layer) const {
+  double own = 0;
+  std::size_t alike = 0;
+  for (std::size_t i = 0; i < layer; ++i) {
+    if (layers[i].thickness_mm)
+      own += *layers[i].thickness_mm;
+    else
+      ++alike;
+  }
+  return own + layer_thickness_mm * static_cast<double>(alike);
+}
+
+double thinnest_layer(const Mat& mat) {
+  double thinnest = mat.thickness_of(0);
+  for (std::size_t i = 1; i < mat.layers.size(); ++i) thinnest = std::min(thinnest, mat.thickness_of(i));
+  return thinnest;
+}
+
+int through(double thickness_mm, double thinnest_mm, int through_thinnest) {
+  const double exact = through_thinnest * (thickness_mm / thinnest_mm);
+  return static_cast<int>(std::lround(std::min(exact, kMostThrough)));
+}
+
 void validate(const Mat& mat, const std::vector<std::string>& kinds, const std::string& source) {
   if (!(mat.length_mm > 0) || !(mat.length_mm <= kLongestMat)) {
     reject(source, fmt::format("length_mm = {} must be positive and at most {} mm", mat.length_mm, kLongestMat));
   }
-  if (!(mat.layer_thickness_mm >= kThinnestLayer) || !(mat.layer_thickness_mm <= kLongestMat)) {
-    reject(source, fmt::format("layer_thickness_mm = {} must be between {} and {} mm", mat.layer_thickness_mm,
-                               kThinnestLayer, kLongestMat));
-  }
+  check_thickness("layer_thickness_mm", mat.layer_thickness_mm, source);
   if (mat.layers.empty()) reject(source, "layers is empty; a mat has at least one layer");
   for (std::size_t i = 0; i < mat.layers.size(); ++i) {
     const auto& layer = mat.layers[i];
     const auto where = at_layer(source, i);
     check_role(layer.role, kinds, where);
+    if (layer.thickness_mm) check_thickness("thickness_mm", *layer.thickness_mm, where);
     if (layer.strands.empty()) reject(where, "strands is empty; a layer has at least one strand");
     for (std::size_t k = 0; k < layer.strands.size(); ++k) check_strand(mat, layer.strands[k], at_strand(where, k));
     check_overlap(layer.strands, where);

@@ -1,6 +1,7 @@
 // A mat: rows of strands before pressing, and the file it is kept in.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -19,15 +20,26 @@ struct Layer {
   std::string role;             // name of a strand kind
   std::vector<Strand> strands;  // by x0, not overlapping
   std::string extra;
+  std::optional<double> thickness_mm = {};  // of all its strands; else the mat's layer_thickness_mm
 };
 
-// Section mat: layers bottom to top, each layer_thickness_mm thick, in the window 0..length_mm.
+// Section mat: layers bottom to top, without vertical gaps, in the window 0..length_mm.
 struct Mat {
   double length_mm = 0;
-  double layer_thickness_mm = 0;
+  double layer_thickness_mm = 0;  // of layers without a thickness of their own
   std::vector<Layer> layers;
   std::string extra;
+
+  double thickness_of(std::size_t layer) const;  // mm
+  double height_below(std::size_t layer) const;  // mm, thickness of all layers below this one
+  double thickness_mm() const { return height_below(layers.size()); }
 };
+
+// Thickness (mm) of the thinnest layer: what the resolution of a panel is measured by. Needs at least one layer.
+double thinnest_layer(const Mat& mat);
+// Points, cells or elements through a layer of `thickness_mm` when the thinnest one has `through_thinnest`: whole, and
+// as near to the same size as possible.
+int through(double thickness_mm, double thinnest_mm, int through_thinnest);
 
 // Reads a mat file: coordinates are rounded to 1e-6 mm (a mat read back from its own file is the same to the last bit)
 // and each layer's strands are sorted by x0. Throws InputError (file, layer, strand, what is wrong) for anything that

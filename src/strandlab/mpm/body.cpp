@@ -34,6 +34,7 @@ Body<Dim> body_of(const Strand<Dim>& strand) {
   Body<Dim> body;
   body.name = strand.kind + " strand in row " + std::to_string(strand.row + 1);
   body.material = strand.material;
+  body.material.stiffness *= strand.stiffness_factor;
   body.points = strand.points;
   body.spacing = strand.spacing;
   body.x = strand.x;

@@ -6,18 +6,37 @@
 #include <cmath>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/nearest.hpp"
 
 namespace strandlab {
 namespace {
+
+std::string did_you_mean(const std::string& given, const std::vector<std::string>& known) {
+  const auto near = nearest(given, known);
+  return near.empty() ? "." : fmt::format("; did you mean \"{}\"?", near);
+}
 
 const StrandKind& find_kind(const std::vector<StrandKind>& kinds, const std::string& role, std::size_t layer) {
   for (const auto& kind : kinds) {
     if (kind.name == role) return kind;
   }
-  throw InputError(fmt::format("layer {}: role \"{}\" is not a strand kind of the case", layer + 1, role));
+  std::vector<std::string> names;
+  for (const auto& kind : kinds) names.push_back(kind.name);
+  throw InputError(fmt::format("layer {}: role \"{}\" is not a strand kind of the case{} Strand kinds: {}", layer + 1,
+                               role, did_you_mean(role, names), quoted_list(names)));
 }
 
-wood::Material find_material(const StrandKind& kind, const mat::Strand& strand, const std::vector<StrandKind>& kinds) {
+std::vector<std::string> material_names(const std::vector<StrandKind>& kinds) {
+  std::vector<std::string> names;
+  for (const auto& built_in : wood::library()) names.push_back(built_in.name);
+  for (const auto& kind : kinds) {
+    if (std::find(names.begin(), names.end(), kind.material.name) == names.end()) names.push_back(kind.material.name);
+  }
+  return names;
+}
+
+const wood::Material& find_material(const StrandKind& kind, const mat::Strand& strand,
+                                    const std::vector<StrandKind>& kinds) {
   if (!strand.material || *strand.material == kind.material.name) return kind.material;
   for (const auto& other : kinds) {
     if (other.material.name == *strand.material) return other.material;
@@ -25,7 +44,10 @@ wood::Material find_material(const StrandKind& kind, const mat::Strand& strand, 
   for (const auto& built_in : wood::library()) {
     if (built_in.name == *strand.material) return built_in;
   }
-  throw InputError(fmt::format("strand at x = {} mm: unknown material \"{}\"", strand.x0_mm, *strand.material));
+  const auto names = material_names(kinds);
+  throw InputError(fmt::format("strand at x = {} mm of a \"{}\" layer: unknown material \"{}\"{} Materials: {}",
+                               strand.x0_mm, kind.name, *strand.material, did_you_mean(*strand.material, names),
+                               quoted_list(names)));
 }
 
 }  // namespace
@@ -34,24 +56,28 @@ Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, d
                     int points_through) {
   Panel<2> panel;
   panel.length_mm = mat.length_mm;
-  panel.initial_thickness_mm = mat.layer_thickness_mm * static_cast<double>(mat.layers.size());
+  panel.initial_thickness_mm = mat.thickness_mm();
   panel.top_mm = panel.initial_thickness_mm;
+  const double thinnest = mat.layers.empty() ? 0 : mat::thinnest_layer(mat);
   for (std::size_t row = 0; row < mat.layers.size(); ++row) {
     const auto& kind = find_kind(kinds, mat.layers[row].role, row);
+    const double thickness = mat.thickness_of(row), y0 = mat.height_below(row);
+    const int through = mat::through(thickness, thinnest, points_through);
     for (const auto& piece : mat.layers[row].strands) {
       Strand<2> s;
       s.kind = kind.name;
       s.row = static_cast<int>(row);
       s.angle_deg = piece.angle_deg.value_or(kind.angle_deg);
-      s.material = wood::in_strand_axes(find_material(kind, piece, kinds), s.angle_deg);
+      s.material =
+          wood::in_strand_axes(wood::softened(find_material(kind, piece, kinds), kind.yield_factor), s.angle_deg);
+      s.stiffness_factor = kind.stiffness_factor;
       const double length = piece.x1_mm - piece.x0_mm;
       const int along = std::max(1, static_cast<int>(std::lround(length / spacing_along_mm)));
-      s.points = {along, points_through};
-      s.spacing = {length / along, mat.layer_thickness_mm / points_through};
-      const double y0 = mat.layer_thickness_mm * static_cast<double>(row);
-      const std::size_t n = static_cast<std::size_t>(along) * static_cast<std::size_t>(points_through);
+      s.points = {along, through};
+      s.spacing = {length / along, thickness / through};
+      const std::size_t n = static_cast<std::size_t>(along) * static_cast<std::size_t>(through);
       s.x.reserve(n);
-      for (int j = 0; j < points_through; ++j) {
+      for (int j = 0; j < through; ++j) {
         for (int i = 0; i < along; ++i) {
           s.x.emplace_back(piece.x0_mm + (i + 0.5) * s.spacing[0], y0 + (j + 0.5) * s.spacing[1]);
         }
@@ -64,6 +90,31 @@ Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, d
     }
   }
   return panel;
+}
+
+Weight weigh(const mat::Mat& mat, const std::vector<StrandKind>& kinds) {
+  Weight weight;
+  double total = 0;  // kg/m^3 mm^2
+  const auto add = [](std::vector<WeightShare>& shares, const std::string& name, double mass) {
+    auto share = std::find_if(shares.begin(), shares.end(), [&](const auto& s) { return s.name == name; });
+    if (share == shares.end()) share = shares.insert(shares.end(), {name, 0});
+    share->fraction += mass;
+  };
+  for (std::size_t row = 0; row < mat.layers.size(); ++row) {
+    const auto& kind = find_kind(kinds, mat.layers[row].role, row);
+    for (const auto& piece : mat.layers[row].strands) {
+      const auto& material = find_material(kind, piece, kinds);
+      const double mass = (piece.x1_mm - piece.x0_mm) * mat.thickness_of(row) * material.density_kg_m3;
+      add(weight.by_kind, kind.name, mass);
+      add(weight.by_material, material.name, mass);
+      total += mass;
+    }
+  }
+  for (auto* shares : {&weight.by_kind, &weight.by_material}) {
+    for (auto& share : *shares) share.fraction /= total;
+  }
+  weight.kg_per_m2 = 1e-3 * total / mat.length_mm;
+  return weight;
 }
 
 std::vector<Vec<2>> corners(const Strand<2>& strand) {

@@ -2,6 +2,7 @@
 // tests, profiles and pictures.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ struct StrandKind {
   std::string name;
   wood::Material material;
   double angle_deg = 0;  // grain against the section (0 surface, 90 core)
+  // How heat and moisture soften the strand in the press: yield stresses with the hardening modulus K, and elastic
+  // moduli, over those of the material. The pressed panel is tested cold, with the material's own moduli.
+  double yield_factor = 1, stiffness_factor = 1;
 };
 
 // One strand: points[0] x points[1] (x points[2]) material points, along x [across x] through the thickness (last
@@ -27,7 +31,8 @@ struct Strand {
   std::string kind;  // name of its StrandKind
   int row = 0;       // layer of the mat, 0 at the bottom
   double angle_deg = 0;
-  wood::StrandMaterial material;
+  wood::StrandMaterial material;  // elastic as tested, cold; yielding as in the press
+  double stiffness_factor = 1;    // elastic stiffness in the press over that of the material
   std::array<int, Dim> points{};
   Vec<Dim> spacing;             // mm, of the points at formation: strand length = points[0]*spacing[0], exactly
   std::vector<Vec<Dim>> x;      // mm, positions now
@@ -52,11 +57,36 @@ struct Panel {
   double compaction() const { return 1 - thickness_mm() / initial_thickness_mm; }
 };
 
-// The panel of a mat before pressing: every strand becomes a lattice with `points_through` points through its thickness
-// and a spacing along it close to `spacing_along_mm` that fills its length exactly. Throws InputError for an unknown
-// role.
+// The panel of a mat before pressing: every strand becomes a lattice with a spacing along it close to
+// `spacing_along_mm` that fills its length exactly. Strands of the thinnest row have `points_through` points through
+// their thickness, others as many as keep the points' height nearest to that. Throws InputError for an unknown role or
+// material, with the nearest known one.
 Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, double spacing_along_mm,
                     int points_through);
+
+// Parts of a mat's weight.
+struct WeightShare {
+  std::string name;
+  double fraction = 0;
+};
+struct Weight {
+  double kg_per_m2 = 0;                           // of panel area
+  std::vector<WeightShare> by_kind, by_material;  // from the bottom up; each sums to 1
+};
+// Exact for the mat as it lies: sums of length x thickness x density over its strands. Throws as make_panel().
+Weight weigh(const mat::Mat& mat, const std::vector<StrandKind>& kinds);
+
+// Thickness (mm, as formed) of a strand, and of the panel's thinnest one. The panel must have a strand.
+template <int Dim>
+double formed_thickness(const Strand<Dim>& strand) {
+  return strand.points[Dim - 1] * strand.spacing[Dim - 1];
+}
+template <int Dim>
+double thinnest_strand(const Panel<Dim>& panel) {
+  double thinnest = formed_thickness(panel.strands.front());
+  for (const auto& strand : panel.strands) thinnest = std::min(thinnest, formed_thickness(strand));
+  return thinnest;
+}
 
 // A strand's outline and elements come from its corner lattice: (points[0]+1) x (points[1]+1) corners, along fastest,
 // each the mean of the corners that the adjacent particle domains (parallelograms x +- F spacing/2) put there.

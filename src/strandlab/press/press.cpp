@@ -113,7 +113,8 @@ class Press {
   double transit_time() const {
     double slowest = 0;
     for (const auto& strand : state_.panel.strands) {
-      slowest = std::max(slowest, std::sqrt(strand.material.density / strand.material.stiffness(2, 2)));
+      const double stiffness = strand.stiffness_factor * strand.material.stiffness(2, 2);
+      slowest = std::max(slowest, std::sqrt(strand.material.density / stiffness));
     }
     return slowest * state_.panel.initial_thickness_mm;
   }
@@ -269,17 +270,13 @@ Setup<Dim> setup(const Panel<Dim>& mat, const Resolution& resolution, mpm::Side 
   Setup<Dim> s;
   s.engine = engine;
   const int y = Dim - 1;
-  const int rows = 1 + std::max_element(mat.strands.begin(), mat.strands.end(), [](const auto& a, const auto& b) {
-                         return a.row < b.row;
-                       })->row;
-  const double row_height = mat.initial_thickness_mm / rows;
   s.grid.lo.setZero();
   s.grid.hi[0] = mat.length_mm;
   if (Dim == 3) s.grid.hi[1] = mat.depth_mm;
   s.grid.lo[y] = 0;
   s.grid.hi[y] = mat.initial_thickness_mm;
   s.grid.origin = s.grid.lo;
-  const double height = row_height / resolution.cells_through_strand;
+  const double height = thinnest_strand(mat) / resolution.cells_through_strand;
   s.grid.cell[y] = height;
   for (int a = 0; a < y; ++a) {  // whole cells between the rollers
     const double width = s.grid.hi[a] - s.grid.lo[a];

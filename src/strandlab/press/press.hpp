@@ -79,9 +79,9 @@ struct Outcome {
 
 // Cells of the background grid. Particles: two per cell and axis (make_panel with spacing_along = cell/2).
 struct Resolution {
-  int cells_through_strand = 3;
-  double cell_aspect = 1;      // length of a cell along the panel over its height
-  bool follow_platens = true;  // the cells' height stays proportional to the platen gap
+  int cells_through_strand = 3;  // the thinnest one; platens and strand faces may lie anywhere between grid lines
+  double cell_aspect = 1;        // length of a cell along the panel over its height
+  bool follow_platens = true;    // the cells' height stays proportional to the platen gap
 };
 
 template <int Dim>

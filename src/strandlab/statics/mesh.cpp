@@ -161,21 +161,20 @@ void append_strand(const Strand<2>& strand, StrandMesh part, Mesh& mesh) {
 }  // namespace
 
 double element_length(const Panel<2>& panel, int elements_through) {
-  const auto& strand = panel.strands.front();
-  return strand.points[1] * strand.spacing[1] / elements_through;
+  return thinnest_strand(panel) / elements_through;
 }
 
 Mesh make_mesh(const Panel<2>& panel, const std::vector<bool>& keep, int elements_through) {
   Mesh mesh;
   mesh.mesh_of_strand.assign(panel.strands.size(), -1);
-  const double length = element_length(panel, elements_through);
+  const double length = element_length(panel, elements_through), thinnest = thinnest_strand(panel);
   for (std::size_t s = 0; s < panel.strands.size(); ++s) {
     if (!keep[s]) continue;
     const auto& strand = panel.strands[s];
     StrandMesh part;
     part.strand = static_cast<int>(s);
     part.along = std::max(1, static_cast<int>(std::lround(strand.points[0] * strand.spacing[0] / length)));
-    part.through = elements_through;
+    part.through = mat::through(formed_thickness(strand), thinnest, elements_through);
     part.first_node = static_cast<int>(mesh.nodes.size());
     part.first_element = static_cast<int>(mesh.elements.size());
     part.points_per_element = static_cast<double>(strand.points[0]) / part.along;

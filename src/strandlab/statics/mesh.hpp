@@ -31,11 +31,12 @@ struct Mesh {
   int dofs() const { return 2 * static_cast<int>(nodes.size()); }
 };
 
-// Length along the strand, as formed, that elements are given: that of a cube-shaped element, formed thickness /
-// elements.
+// Length along the strand, as formed, that elements are given: that of a cube-shaped element, formed thickness of the
+// thinnest strand / elements.
 double element_length(const Panel<2>& panel, int elements_through);
 
-// Mesh of the strands for which keep[strand] holds. Strand ends and faces stay where the corner lattice puts them.
+// Mesh of the strands for which keep[strand] holds: `elements_through` elements through the thinnest strand, in others
+// as many as keep their height nearest to that. Strand ends and faces stay where the corner lattice puts them.
 // Throws RunError for an inverted element.
 Mesh make_mesh(const Panel<2>& panel, const std::vector<bool>& keep, int elements_through);
 

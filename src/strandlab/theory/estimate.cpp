@@ -63,8 +63,7 @@ void at_compaction(const Question& q, const std::vector<Row>& rows, Estimate at,
   add("bending", bending_modulus_MPa(rows, at.compaction, q.off_axis));
   if (first_along(rows))
     for (double compliance : q.compliances_t)
-      add("shear_lag", shear_lag_panel_MPa(rows, q.row_thickness_mm, q.matrix, compliance, at.compaction, q.off_axis),
-          compliance);
+      add("shear_lag", shear_lag_panel_MPa(rows, q.matrix, compliance, at.compaction, q.off_axis), compliance);
   const auto core = std::find_if_not(rows.begin(), rows.end(), runs_along);
   if (core == rows.end()) return;
   const auto with_core = [&](double modulus) {
@@ -108,8 +107,9 @@ const std::vector<Model>& models() {
 }
 
 std::vector<Estimate> estimate(const Question& q) {
-  if (!(q.row_thickness_mm > 0))
-    throw InputError(fmt::format("row thickness {:g} mm must be positive", q.row_thickness_mm));
+  for (const Row& row : q.rows)
+    if (!(row.thickness_mm > 0))
+      throw InputError(fmt::format("row thickness {:g} mm must be positive", row.thickness_mm));
   std::vector<Estimate> result;
   for (const StrandSize& size : strand_sizes(q)) {
     const std::vector<Row> rows = varied_rows(q, size);

@@ -20,7 +20,6 @@ const std::vector<Model>& models();
 
 struct Question {
   std::vector<Row> rows;  // bottom to top
-  double row_thickness_mm = 0.8;
   std::vector<double> compactions{0};
   std::vector<double> compliances_t{0};  // 1/D_t, mm/MPa
   std::vector<double> lengths_mm;        // of the strands that run along; empty: as the rows have it

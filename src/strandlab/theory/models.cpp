@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -29,6 +30,17 @@ double angle_average(const Function& value) {
   return sum / kAngles;
 }
 
+// Mean over angles uniform within angle +- spread, by the middles of intervals of a quarter degree at most; over +-90
+// degrees they are equally spaced over the period too.
+template <typename Function>
+double mean_within(double angle, double spread, const Function& value) {
+  if (!(spread > 0)) return value(angle);
+  constexpr int kAngles = 720;
+  double sum = 0;
+  for (int i = 0; i < kAngles; ++i) sum += value(angle + spread * ((2 * i + 1.0) / kAngles - 1));
+  return sum / kAngles;
+}
+
 void check_compaction(double compaction) {
   if (!(compaction >= 0) || !(compaction < 1))
     throw InputError(fmt::format("compaction {:g} is not in 0 <= C < 1", compaction));
@@ -43,6 +55,16 @@ std::vector<double> row_moduli(const std::vector<Row>& rows, OffAxis off_axis) {
   moduli.reserve(rows.size());
   for (const Row& row : rows) moduli.push_back(strand_modulus_MPa(row, off_axis) * solid_fraction(row.statistics));
   return moduli;
+}
+
+std::vector<double> thicknesses(const std::vector<Row>& rows) {
+  std::vector<double> mm(rows.size());
+  std::transform(rows.begin(), rows.end(), mm.begin(), [](const Row& row) { return row.thickness_mm; });
+  return mm;
+}
+
+std::vector<double> or_equal(const std::vector<double>& thicknesses_mm, std::size_t rows) {
+  return thicknesses_mm.empty() ? std::vector<double>(rows, 1.0) : thicknesses_mm;
 }
 
 }  // namespace
@@ -62,7 +84,8 @@ double solid_fraction(const mat::StrandStatistics& s) {
 }
 
 bool runs_along(const Row& row) {
-  return std::abs(std::cos(row.angle_deg * kPi / 180)) > std::sqrt(0.5);
+  const double off = std::abs(std::remainder(row.angle_deg, 180.0));
+  return off + row.angle_spread_deg < 45;
 }
 
 double off_axis_modulus_MPa(const wood::Material& m, double angle_deg) {
@@ -91,44 +114,51 @@ double quasi_isotropic_modulus_MPa(const wood::Material& m) {
 }
 
 double strand_modulus_MPa(const Row& row, OffAxis off_axis) {
-  return off_axis == OffAxis::kExact ? plane_strain_modulus_MPa(row.material, row.angle_deg)
-                                     : off_axis_modulus_MPa(row.material, row.angle_deg);
+  return mean_within(row.angle_deg, row.angle_spread_deg, [&](double angle) {
+    return off_axis == OffAxis::kExact ? plane_strain_modulus_MPa(row.material, angle)
+                                       : off_axis_modulus_MPa(row.material, angle);
+  });
 }
 
-double tension_of_moduli_MPa(const std::vector<double>& moduli, double compaction) {
+double tension_of_moduli_MPa(const std::vector<double>& moduli, double compaction,
+                             const std::vector<double>& thicknesses_mm) {
   check_compaction(compaction);
   check_rows(moduli.size());
-  return std::accumulate(moduli.begin(), moduli.end(), 0.0) / static_cast<double>(moduli.size()) / (1 - compaction);
+  const auto t = or_equal(thicknesses_mm, moduli.size());
+  return std::inner_product(moduli.begin(), moduli.end(), t.begin(), 0.0) / std::accumulate(t.begin(), t.end(), 0.0) /
+         (1 - compaction);
 }
 
-double bending_of_moduli_MPa(const std::vector<double>& moduli, double compaction) {
+double bending_of_moduli_MPa(const std::vector<double>& moduli, double compaction,
+                             const std::vector<double>& thicknesses_mm) {
   check_compaction(compaction);
   check_rows(moduli.size());
-  // Rows of height 1 about the neutral axis, which an unsymmetrical layup moves off the middle.
-  const auto n = static_cast<double>(moduli.size());
-  double stretch = 0, moment = 0, stiffness = 0;
+  const auto t = or_equal(thicknesses_mm, moduli.size());
+  // About the neutral axis, which an unsymmetrical layup moves off the middle.
+  double height = 0, stretch = 0, moment = 0, stiffness = 0;
   for (std::size_t i = 0; i < moduli.size(); ++i) {
-    const double y = static_cast<double>(i) + 0.5;
-    stretch += moduli[i];
-    moment += moduli[i] * y;
-    stiffness += moduli[i] * (1.0 / 12 + square(y));
+    const double y = height + 0.5 * t[i];
+    stretch += moduli[i] * t[i];
+    moment += moduli[i] * t[i] * y;
+    stiffness += moduli[i] * t[i] * (square(t[i]) / 12 + square(y));
+    height += t[i];
   }
-  return (stiffness - square(moment) / stretch) / (n * n * n / 12) / (1 - compaction);
+  return (stiffness - square(moment) / stretch) / (height * height * height / 12) / (1 - compaction);
 }
 
 double tension_modulus_MPa(const std::vector<Row>& rows, double compaction, OffAxis off_axis) {
-  return tension_of_moduli_MPa(row_moduli(rows, off_axis), compaction);
+  return tension_of_moduli_MPa(row_moduli(rows, off_axis), compaction, thicknesses(rows));
 }
 
 double bending_modulus_MPa(const std::vector<Row>& rows, double compaction, OffAxis off_axis) {
-  return bending_of_moduli_MPa(row_moduli(rows, off_axis), compaction);
+  return bending_of_moduli_MPa(row_moduli(rows, off_axis), compaction, thicknesses(rows));
 }
 
 double random_core_modulus_MPa(const std::vector<Row>& rows, double core_modulus, double compaction, OffAxis off_axis) {
   std::vector<double> moduli = row_moduli(rows, off_axis);
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (!runs_along(rows[i])) moduli[i] = core_modulus * solid_fraction(rows[i].statistics);
-  return tension_of_moduli_MPa(moduli, compaction);
+  return tension_of_moduli_MPa(moduli, compaction, thicknesses(rows));
 }
 
 double strand_efficiency(const ShearLag& s, double compliance) {
@@ -150,26 +180,29 @@ double shear_lag_modulus_MPa(const ShearLag& s, double compliance) {
   return strand_efficiency(s, compliance) * s.E_w_MPa * s.V_w + s.E_m_MPa * (1 - s.V_w);
 }
 
-double shear_lag_panel_MPa(const std::vector<Row>& rows, double row_thickness_mm, const Matrix& matrix,
-                           double compliance, double compaction, OffAxis off_axis) {
+double shear_lag_panel_MPa(const std::vector<Row>& rows, const Matrix& matrix, double compliance, double compaction,
+                           OffAxis off_axis) {
   std::vector<double> moduli = row_moduli(rows, off_axis);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto& row = rows[i];
     if (!runs_along(row)) continue;
     moduli[i] =
         shear_lag_modulus_MPa({strand_modulus_MPa(row, off_axis), row.material.G_RL, solid_fraction(row.statistics),
-                               matrix.modulus_MPa, matrix.shear_MPa, row.statistics.length_mm, row_thickness_mm},
+                               matrix.modulus_MPa, matrix.shear_MPa, row.statistics.length_mm, row.thickness_mm},
                               compliance);
   }
-  return tension_of_moduli_MPa(moduli, compaction);
+  return tension_of_moduli_MPa(moduli, compaction, thicknesses(rows));
 }
 
 double density_kg_m3(const std::vector<Row>& rows, double compaction) {
   check_compaction(compaction);
   check_rows(rows.size());
-  double sum = 0;
-  for (const Row& row : rows) sum += row.material.density_kg_m3 * solid_fraction(row.statistics);
-  return sum / static_cast<double>(rows.size()) / (1 - compaction);
+  double mass = 0, height = 0;
+  for (const Row& row : rows) {
+    mass += row.material.density_kg_m3 * solid_fraction(row.statistics) * row.thickness_mm;
+    height += row.thickness_mm;
+  }
+  return mass / height / (1 - compaction);
 }
 
 double modulus_at_density_MPa(const std::vector<Row>& rows, double density, OffAxis off_axis) {

@@ -16,16 +16,18 @@ enum class OffAxis { kUncoupled, kExact };
 const char* name(OffAxis choice);                     // "uncoupled", "exact"
 OffAxis off_axis_from_name(const std::string& name);  // throws InputError with the allowed names
 
-// One row of strands, all rows equally thick.
+// One row of strands.
 struct Row {
   wood::Material material;
   double angle_deg = 0;              // grain against the section: 0 surface, 90 core
   mat::StrandStatistics statistics;  // mm along the section; length 0 and gap 0: one strand fills the row
+  double thickness_mm = 0.8;
+  double angle_spread_deg = 0;  // angles of its strands are uniform within angle_deg +- this
 };
 
 // Mean <L>/(<L> + <G>), the part of a row that is wood; 1 for a full row.
 double solid_fraction(const mat::StrandStatistics& statistics);
-// Grain within 45 degrees of the section: these rows carry the load, the others are core.
+// Grain of every strand within 45 degrees of the section: these rows carry the load, the others are core.
 bool runs_along(const Row& row);
 
 // --- a strand ---
@@ -40,17 +42,20 @@ double plane_strain_average_MPa(const wood::Material& material);
 // Laminate with plies in all directions alike, plane stress, MPa: (U1^2 - U4^2)/U1 with the lamina invariants U1, U4.
 // Jones, Mechanics of Composite Materials (1999), section 4.4.
 double quasi_isotropic_modulus_MPa(const wood::Material& material);
-// Modulus of a row's solid wood along the section, MPa.
+// Modulus of a row's solid wood along the section, MPa: the mean over the angles of its strands.
 double strand_modulus_MPa(const Row& row, OffAxis off_axis);
 
 // --- a panel at compaction C, MPa ---
-// Homogenised rule of mixtures: mean over rows of modulus times solid fraction, over 1 - C. Le (2010) Eq. 3.8, 3.9.
+// Homogenised rule of mixtures: mean over rows, by thickness, of modulus times solid fraction, over 1 - C. Le (2010)
+// Eq. 3.8, 3.9.
 double tension_modulus_MPa(const std::vector<Row>& rows, double compaction, OffAxis off_axis = OffAxis::kUncoupled);
 // Laminated beam: sum of E_i I_i of the rows over I, over 1 - C.
 double bending_modulus_MPa(const std::vector<Row>& rows, double compaction, OffAxis off_axis = OffAxis::kUncoupled);
-// The same from row moduli that already contain their gaps.
-double tension_of_moduli_MPa(const std::vector<double>& row_moduli, double compaction);
-double bending_of_moduli_MPa(const std::vector<double>& row_moduli, double compaction);
+// The same from row moduli that already contain their gaps; rows are equally thick where no thicknesses are given.
+double tension_of_moduli_MPa(const std::vector<double>& row_moduli, double compaction,
+                             const std::vector<double>& thicknesses_mm = {});
+double bending_of_moduli_MPa(const std::vector<double>& row_moduli, double compaction,
+                             const std::vector<double>& thicknesses_mm = {});
 // Rule of mixtures with a core (every row that does not run along) of strands at random angles, whose solid modulus is
 // `core_modulus`.
 double random_core_modulus_MPa(const std::vector<Row>& rows, double core_modulus, double compaction,
@@ -73,12 +78,13 @@ double shear_lag_modulus_MPa(const ShearLag& strands, double compliance_t_mm_per
 struct Matrix {
   double modulus_MPa = 1500, shear_MPa = 500;
 };
-// Rule of mixtures with shear-lag moduli in the rows that run along, t = the row thickness before pressing. Le Eq. 5.6.
-double shear_lag_panel_MPa(const std::vector<Row>& rows, double row_thickness_mm, const Matrix& matrix,
-                           double compliance_t_mm_per_MPa, double compaction, OffAxis off_axis = OffAxis::kUncoupled);
+// Rule of mixtures with shear-lag moduli in the rows that run along, t = the row's thickness before pressing. Le
+// Eq. 5.6.
+double shear_lag_panel_MPa(const std::vector<Row>& rows, const Matrix& matrix, double compliance_t_mm_per_MPa,
+                           double compaction, OffAxis off_axis = OffAxis::kUncoupled);
 
 // --- density ---
-// Mean density, kg/m^3: mean over rows of density times solid fraction, over 1 - C.
+// Mean density, kg/m^3: mean over rows, by thickness, of density times solid fraction, over 1 - C.
 double density_kg_m3(const std::vector<Row>& rows, double compaction);
 // Modulus (MPa) of a panel of given density: tension modulus over density is the same at every compaction. Le Eq. 6.4.
 double modulus_at_density_MPa(const std::vector<Row>& rows, double density_kg_m3,

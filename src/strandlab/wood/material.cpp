@@ -208,6 +208,11 @@ VoigtMatrix stiffness(const Material& m) {
   return symmetric(C);
 }
 
+Material softened(Material m, double yield_factor) {
+  for (double* stress : {&m.Y_L, &m.Y_R, &m.Y_T, &m.S_RT, &m.S_RL, &m.S_TL, &m.hardening_K}) *stress *= yield_factor;
+  return m;
+}
+
 StrandMaterial in_strand_axes(const Material& material, double angle_deg) {
   const auto [c, s] = cos_sin(angle_deg);
   const VoigtMatrix T = strain_to_wood(c, s), Q = stress_to_wood(c, s);

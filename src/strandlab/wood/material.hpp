@@ -33,6 +33,11 @@ const std::vector<Material>& library();
 // 0 or n < 1.
 void validate(const Material& material);
 
+// The material with yield stresses and hardening modulus K times `yield_factor`, as heat and moisture leave it:
+// stresses of a given plastic strain are scaled exactly, for K/Y_R and so alpha stay as they are. Elastic moduli are
+// kept.
+Material softened(Material material, double yield_factor);
+
 // A material seen in the axes of a strand whose grain makes `angle_deg` with the strand's long axis (rotation about the
 // thickness). This is all that the engine and the virtual tests need to know of the wood.
 struct StrandMaterial {

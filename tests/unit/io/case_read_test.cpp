@@ -6,6 +6,7 @@
 
 #include "case_samples.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/io/case_estimate.hpp"
 #include "strandlab/io/case_keys.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -51,9 +52,10 @@ TEST(CaseRead, EveryKeyIsStored) {
     EXPECT_EQ(to_toml(sample.entry->get(c, sample.name)), sample.value) << sample.entry->path;
     const Case overridden = case_from_text("", "panel.toml", {sample.dotted + "=" + sample.value});
     EXPECT_EQ(to_toml(sample.entry->get(overridden, sample.name)), sample.value) << sample.entry->path;
-    for (const auto& other : keys()) {  // and nothing else has changed
-      if (&other == sample.entry || section_of(other) != section_of(*sample.entry) || name_of(*sample.entry) == "base")
-        continue;
+    const auto own_name = name_of(*sample.entry);
+    if (own_name == "base" || own_name == "species") continue;  // they set the constants
+    for (const auto& other : keys()) {                          // and nothing else has changed
+      if (&other == sample.entry || section_of(other) != section_of(*sample.entry)) continue;
       EXPECT_EQ(to_toml(other.get(c, sample.name)), to_toml(other.get(plain_case(sample), sample.name)))
           << sample.entry->path << " changes " << other.path;
     }
@@ -89,6 +91,46 @@ TEST(CaseRead, MaterialsStartFromTheirBase) {
   EXPECT_EQ(material.name, "mine");
   EXPECT_EQ(material.E_L, 20000);
   EXPECT_EQ(material.density_kg_m3, 910);  // of vtc, although base comes last
+}
+
+// Wherever they stand in the file: E_L and species first, then what is given besides.
+TEST(CaseRead, MaterialsFollowFromTheirSpecies) {
+  const Case c = case_from_text(
+      "[materials.mine]\nE_R_MPa = 1000\nspecies = \"douglas-fir\"\nE_L_MPa = 12000\ndensity_kg_m3 = 480\n",
+      "panel.toml");
+  const auto& m = c.materials[0].material;
+  EXPECT_EQ(m.E_L, 12000);
+  EXPECT_EQ(m.E_R, 1000);
+  EXPECT_EQ(m.density_kg_m3, 480);
+  EXPECT_DOUBLE_EQ(m.E_T, 600);  // .050 E_L
+  EXPECT_DOUBLE_EQ(m.G_RT, 84);  // .007 E_L
+  EXPECT_EQ(m.Y_R, 5);           // of poplar, the base
+  const auto told = derived_constants(c);
+  ASSERT_EQ(told.size(), 1U);
+  for (const auto* part : {"material mine: E_T, G_RL,", "E_L = 12000 MPa", "douglas-fir", "Wood Handbook"})
+    EXPECT_NE(told[0].find(part), std::string::npos) << told[0];
+  EXPECT_EQ(told[0].find("E_R"), std::string::npos) << told[0];
+  EXPECT_TRUE(derived_constants(Case()).empty());
+}
+
+// A row has the thickness of its kind, the case's where the kind has none.
+TEST(CaseRead, KindsMayDifferInThicknessAndAngles) {
+  const Case c = case_from_text(
+      "[mat]\nlength_mm = 40\nrows = [\"surface\", \"core\"]\nlayer_thickness_mm = 0.7\n"
+      "[kinds.surface]\nthickness_mm = 1.4\n[kinds.core]\nangle_deg = 10\nangle_spread_deg = 5\n",
+      "panel.toml");
+  const auto mat = make_mat(c);
+  EXPECT_EQ(mat.thickness_of(0), 1.4);
+  EXPECT_EQ(mat.thickness_of(1), .7);
+  EXPECT_FALSE(mat.layers[0].strands[0].angle_deg);
+  for (const auto& strand : mat.layers[1].strands) EXPECT_NEAR(strand.angle_deg.value(), 10, 5);
+  const auto panel = make_panel(c, mat);
+  EXPECT_DOUBLE_EQ(panel.initial_thickness_mm, 2.1);
+  EXPECT_EQ(panel.strands.front().points[1], 12);  // twice the thickness of the core's
+  EXPECT_EQ(panel.strands.back().points[1], 6);
+  const auto e = estimate(c, panel);
+  EXPECT_DOUBLE_EQ(e.cell_height_mm, .7 / 3);
+  EXPECT_NEAR(static_cast<double>(e.particles) / particle_count(c, mat), 1, .02);
 }
 
 TEST(CaseRead, RunsTheRowsOfAMatFileWithOwnKinds) {
@@ -139,6 +181,12 @@ TEST(CaseRead, BadInputIsAnsweredByFileLineKeyGivenAndAllowed) {
       {"[test]\nkinds = [\"tensions\"]",
        {"one of tension, bending_end_rotation, bending_end_couple", "did you mean tension?"}},
       {"[kinds.core]\nmaterial = \"popla\"", {"one of poplar, vtc", "did you mean poplar?"}},
+      {"[kinds.core]\nthickness_mm = -1", {"panel.toml:2", "kinds.core.thickness_mm = -1 mm", "0 or more"}},
+      {"[kinds.core]\nangle_spread_deg = 100", {"kinds.core.angle_spread_deg = 100 degrees", "from 0 to 90"}},
+      {"[kinds.core]\nyield_factor = 0", {"kinds.core.yield_factor = 0", "greater than 0 and at most 1"}},
+      {"[kinds.core]\nstiffness_factor = 2", {"kinds.core.stiffness_factor = 2", "greater than 0 and at most 1"}},
+      {"[materials.m]\nspecies = \"douglas fir\"",
+       {"panel.toml:2", "materials.m.species", "yellow-poplar", "did you mean douglas-fir?"}},
       // |nu_TR| must stay below sqrt(E_T/E_R) = .68 for the R-T block of the compliance to be positive definite.
       {"[materials.m]\nnu_TR = 0.7", {"panel.toml:2", "[materials.m]", "not positive definite", "nu_TR"}},
       {"[materials.m]\nY_R_MPa = 6", {"panel.toml:2", "[materials.m]", "not positive semi-definite", "Y_R"}},

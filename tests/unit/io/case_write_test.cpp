@@ -5,6 +5,8 @@
 
 #include <filesystem>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "case_samples.hpp"
 #include "strandlab/core/error.hpp"
@@ -56,6 +58,71 @@ TEST(CaseWrite, ReadyCasesHaveTheirRows) {
     for (const auto& layer : make_mat(ready_case(name)).layers) EXPECT_EQ(layer.strands.size(), 1U) << name;
   }
   EXPECT_THROW(ready_case("osbb"), InputError);
+}
+
+// Rows of Le (2010), 3.6.4: VTC on the surfaces, a core at any angle in Rathi's panels.
+TEST(CaseWrite, PanelsWithDensifiedStrandsHaveTheirRows) {
+  struct Layers {
+    const char* name;
+    std::size_t surface, core;
+    const char* material;
+    double length_mm, spread_deg;
+  };
+  for (const auto& expected :
+       {Layers{"osb_vtc50", 5, 10, "vtc", 150, 0}, Layers{"rathi20_control", 2, 16, "poplar", 150, 90},
+        Layers{"rathi20_vtc", 1, 19, "vtc", 125, 90}, Layers{"rathi40_control", 4, 12, "poplar", 150, 90},
+        Layers{"rathi40_vtc", 2, 14, "vtc", 125, 90}}) {
+    const auto c = ready_case(expected.name);
+    const auto rows = layup(c).rows;
+    ASSERT_EQ(rows.size(), 2 * expected.surface + expected.core) << expected.name;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const bool surface = i < expected.surface || i >= expected.surface + expected.core;
+      EXPECT_EQ(rows[i].kind, surface ? "surface" : "core") << expected.name;
+      const double spread_deg = rows[i].angles_deg.value_or(mat::AngleRange{}).spread_deg;
+      EXPECT_EQ(spread_deg, surface ? 0 : expected.spread_deg) << expected.name;
+    }
+    EXPECT_EQ(rows.front().statistics.length_mm, expected.length_mm) << expected.name;
+    EXPECT_EQ(strand_kinds(c)[0].material.name, expected.material) << expected.name;
+    EXPECT_EQ(strand_kinds(c)[1].material.name, "poplar") << expected.name;
+  }
+}
+
+TEST(CaseWrite, Chapter5CasesVaryLengthAndGap) {
+  for (const int length : {75, 150}) {
+    for (const int gap : {15, 30}) {
+      const auto c = ready_case("osb_length" + std::to_string(length) + "_gap" + std::to_string(gap));
+      const auto& s = c.kinds[0].statistics;
+      EXPECT_EQ(s.length_mm, length);
+      EXPECT_EQ(s.length_sd_mm, 20);
+      EXPECT_EQ(s.gap_mm, gap);
+      EXPECT_EQ(s.gap_sd_mm, 4.95);
+      EXPECT_EQ(c.kinds[1].statistics.length_mm, 25);
+      EXPECT_EQ(c.rows, Case().rows);
+    }
+  }
+}
+
+// Weight fraction of each panel's VTC: exactly that of its own mat, and over many mats that of its rows: solid fraction
+// times density, VTC 125/140 * 910 and core 25/35 * 350 kg/m3, 25.5 % and 48.1 % by weight.
+TEST(CaseWrite, WeightFractionsAreThoseOfTheMat) {
+  for (const auto& [name, expected] : {std::pair{"rathi20_vtc", 0.2549}, std::pair{"rathi40_vtc", 0.4814}}) {
+    auto c = ready_case(name);
+    const auto mat = make_mat(c);
+    double vtc = 0, all = 0;
+    for (const auto& layer : mat.layers) {
+      for (const auto& strand : layer.strands) {
+        const double mass = (strand.x1_mm - strand.x0_mm) * .8 * (layer.role == "surface" ? 910 : 350);
+        all += mass;
+        if (layer.role == "surface") vtc += mass;
+      }
+    }
+    const auto weight = weigh(c, mat);
+    ASSERT_EQ(weight.by_material[0].name, "vtc");
+    EXPECT_NEAR(weight.by_material[0].fraction, vtc / all, 1e-14) << name;
+    EXPECT_EQ(weight.by_kind[0].fraction, weight.by_material[0].fraction) << name;
+    c.length_mm = 1e5;
+    EXPECT_NEAR(weigh(c, make_mat(c)).by_material[0].fraction, expected, 0.002) << name;
+  }
 }
 
 // Two runs give the same bits exactly when no key that changes results differs.

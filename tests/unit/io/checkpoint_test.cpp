@@ -54,6 +54,7 @@ Strand<Dim> any_strand(AnyDouble& any, int row, std::array<int, Dim> points) {
   strand.kind = row == 0 ? "surface" : "core of the mat";
   strand.row = row;
   strand.angle_deg = any();
+  strand.stiffness_factor = any();
   strand.points = points;
   fill(strand.spacing);
   strand.material.density = any();
@@ -246,7 +247,7 @@ TEST_F(CheckpointFile, EveryDatasetSaysItsUnit) {
   H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, visit, &count);
   H5Fclose(file);
   EXPECT_EQ(count.datasets,
-            6 + 3 + 8 + 5 + 15 + 12 + 12 + 6);  // frame, strands, points, engine, records, pending, press
+            6 + 3 + 9 + 5 + 15 + 12 + 12 + 6);  // frame, strands, points, engine, records, pending, press
   EXPECT_EQ(count.labelled, count.datasets);
 }
 

@@ -58,7 +58,7 @@ TEST(RunFolder, RefusesAnotherCaseAndSaysWhatDiffers) {
   EXPECT_NE(message.find("press.speed_m_s = 16 there, 8 here"), std::string::npos) << message;
   EXPECT_NE(message.find("--force"), std::string::npos) << message;
   EXPECT_EQ(test::contents(folder / "run/run.json"), before);
-  EXPECT_NE(refusal(folder / "run", with("materials.m.E_L_MPa=9000")).find("materials.m.E_L_MPa only here"),
+  EXPECT_NE(refusal(folder / "run", with("materials.m.E_L_MPa=9000")).find("materials.m.base only here"),
             std::string::npos);
 }
 

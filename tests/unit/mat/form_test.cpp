@@ -201,6 +201,66 @@ TEST(Form, SameMatOnEveryMachine) {
       "  {\"role\":\"core\", \"strands\":[{\"x0\":9.25764,\"x1\":34.300545}, {\"x0\":44.514642,\"x1\":60.0}]}\n ]}\n");
 }
 
+// Angles have a stream of their own: adding them moves no strand, and a mat without them names none.
+TEST(Form, SameAnglesOnEveryMachine) {
+  Layup layup;
+  layup.length_mm = 60;
+  layup.rows = {{"surface", kSurface}, {"core", kCore, {}, AngleRange{0, 90}}};
+  EXPECT_EQ(to_text(form(layup, 1)),
+            "{\"length_mm\":60.0, \"layer_thickness_mm\":0.8,\n \"layers\":[\n"
+            "  {\"role\":\"surface\", \"strands\":[{\"x0\":0.0,\"x1\":60.0}]},\n"
+            "  {\"role\":\"core\", \"strands\":[{\"x0\":9.25764,\"x1\":34.300545,\"angle_deg\":-18.643}, "
+            "{\"x0\":44.514642,\"x1\":60.0,\"angle_deg\":-41.483}]}\n ]}\n");
+}
+
+// Chi-square of 18 bins over mean +- spread; 40.8 is exceeded by one sample of uniform angles in a thousand. Successive
+// strands are independent: their correlation is within three of its standard errors, 1/sqrt(n).
+TEST(Form, AnglesAreUniformAndIndependent) {
+  constexpr int kBins = 18;
+  for (const auto& range : {AngleRange{0, 90}, AngleRange{-20, 30}}) {
+    Layup layup;
+    layup.length_mm = 1000;
+    layup.rows.assign(200, {"core", kCore, {}, range});
+    std::vector<double> u;  // uniform in 0..1
+    for (const auto& layer : form(layup, 7).layers) {
+      for (const auto& strand : layer.strands)
+        u.push_back((strand.angle_deg.value() - range.mean_deg + range.spread_deg) / (2 * range.spread_deg));
+    }
+    const auto n = static_cast<double>(u.size());
+    ASSERT_GT(n, 5000);
+    std::vector<double> count(kBins, 0.0);
+    double correlation = 0;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      ASSERT_TRUE(u[i] >= 0 && u[i] <= 1) << u[i];
+      count[std::min<std::size_t>(kBins - 1, static_cast<std::size_t>(u[i] * kBins))] += 1;
+      if (i > 0) correlation += 12 * (u[i] - .5) * (u[i - 1] - .5) / n;
+    }
+    double chi2 = 0;
+    for (const double c : count) chi2 += (c - n / kBins) * (c - n / kBins) / (n / kBins);
+    EXPECT_LT(chi2, 40.8);
+    EXPECT_LT(std::abs(correlation), 3 / std::sqrt(n));
+  }
+}
+
+// A row names its thickness only where it differs from the others'.
+TEST(Form, RowsMayDifferInThickness) {
+  Layup layup;
+  layup.rows = {{"surface", kSurface, 1.25}, {"core", kCore, .8}, {"core", kCore}};
+  const auto mat = form(layup, 1);
+  EXPECT_EQ(mat.layers[0].thickness_mm, 1.25);
+  EXPECT_FALSE(mat.layers[1].thickness_mm || mat.layers[2].thickness_mm);
+  EXPECT_EQ(mat.height_below(1), 1.25);
+  EXPECT_DOUBLE_EQ(mat.thickness_mm(), 1.25 + 2 * .8);
+  EXPECT_EQ(thinnest_layer(mat), .8);
+}
+
+TEST(Through, IsWholeAndNearest) {
+  EXPECT_EQ(through(.8, .8, 6), 6);
+  EXPECT_EQ(through(1.2, .8, 6), 9);
+  EXPECT_EQ(through(1.1, .8, 6), 8);  // 8.25
+  EXPECT_EQ(through(1e9, 1e-3, 6), 1000000);
+}
+
 TEST(Form, WithoutGapsOneStrandFillsTheRow) {
   Layup layup;
   layup.length_mm = 33.25;
@@ -265,6 +325,22 @@ INSTANTIATE_TEST_SUITE_P(
         BadLayup{"NanSd", [](Layup& l) { l.rows[2].statistics.length_sd_mm = std::nan(""); }, {"length_sd_mm = nan"}},
         BadLayup{"NoWindow", [](Layup& l) { l.length_mm = 0; }, {"length_mm = 0"}},
         BadLayup{"NegativeThickness", [](Layup& l) { l.layer_thickness_mm = -0.8; }, {"layer_thickness_mm = -0.8"}},
+        BadLayup{"NoThickness", [](Layup& l) { l.rows[1].thickness_mm = 0; }, {"row 2 (\"core\")", "thickness_mm = 0"}},
+        BadLayup{"SpreadBeyondAnyAngle",
+                 [](Layup& l) {
+                   l.rows[1].angles_deg = AngleRange{0, 91};
+                 },
+                 {"row 2 (\"core\")", "angle spread = 91", "between 0 and 90"}},
+        BadLayup{"NegativeSpread",
+                 [](Layup& l) {
+                   l.rows[1].angles_deg = AngleRange{0, -1};
+                 },
+                 {"angle spread = -1"}},
+        BadLayup{"NanAngle",
+                 [](Layup& l) {
+                   l.rows[1].angles_deg = AngleRange{std::nan(""), 1};
+                 },
+                 {"angle = nan"}},
         BadLayup{"NoRows", [](Layup& l) { l.rows.clear(); }, {"no rows"}},
         BadLayup{"NamelessKind", [](Layup& l) { l.rows[0].kind = ""; }, {"row 1", "no name"}},
         BadLayup{"WindowWithinAGap",

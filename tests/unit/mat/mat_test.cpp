@@ -75,6 +75,23 @@ TEST_F(MatFile, WrittenReadAndWrittenAgainIsUnchanged) {
   }
 }
 
+// A layer has its own thickness or the mat's; it is kept on write, in a file that reads back to the same bytes.
+TEST_F(MatFile, LayersMayDifferInThickness) {
+  const auto mat = read(put(R"({"length_mm":20,"layer_thickness_mm":0.8,"layers":[
+      {"role":"surface","strands":[{"x0":0,"x1":20}],"thickness_mm":1.3},{"role":"core","strands":[{"x0":0,"x1":20}]}]})"),
+                        kKinds);
+  EXPECT_EQ(mat.thickness_of(0), 1.3);
+  EXPECT_EQ(mat.thickness_of(1), .8);
+  EXPECT_EQ(mat.height_below(0), 0);
+  EXPECT_EQ(mat.height_below(1), 1.3);
+  EXPECT_DOUBLE_EQ(mat.thickness_mm(), 2.1);
+  EXPECT_EQ(mat.layers[0].extra, "");
+  const auto text = to_text(mat);
+  EXPECT_NE(text.find("{\"role\":\"surface\", \"thickness_mm\":1.3, \"strands\":["), std::string::npos) << text;
+  EXPECT_NE(text.find("{\"role\":\"core\", \"strands\":["), std::string::npos) << text;
+  EXPECT_EQ(to_text(read(put(text), kKinds)), text);
+}
+
 TEST_F(MatFile, ExtraKeysAreKeptAtEveryLevel) {
   const auto mat =
       read(put(R"({"length_mm":20,"layer_thickness_mm":0.75,"author":"E. \"L\" é","stats":{"sd":[1,2.5,null]},
@@ -225,6 +242,12 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"RoleIsNumber", second_layer(R"({"role":1,"strands":[{"x0":0,"x1":9}]})"), {"layer 2: ", "role = 1"}},
         Fault{
             "MissingRole", second_layer(R"({"strands":[{"x0":0,"x1":9}]})"), {"layer 2: ", "key \"role\" is missing"}},
+        Fault{"LayerWithoutThickness",
+              second_layer(R"({"role":"core","thickness_mm":0,"strands":[{"x0":0,"x1":9}]})"),
+              {"layer 2: ", "thickness_mm = 0", "between 0.001"}},
+        Fault{"LayerThicknessIsText",
+              second_layer(R"({"role":"core","thickness_mm":"1","strands":[{"x0":0,"x1":9}]})"),
+              {"layer 2: ", "thickness_mm = \"1\"", "must be a number"}},
         Fault{"MissingStrands", second_layer(R"({"role":"core"})"), {"layer 2: ", "key \"strands\" is missing"}},
         Fault{"NoStrands", second_layer(R"({"role":"core","strands":[]})"), {"layer 2: ", "strands is empty"}},
         Fault{

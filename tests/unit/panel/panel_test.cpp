@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 
 #include "strandlab/core/error.hpp"
@@ -111,22 +112,78 @@ TEST(MakePanel, StrandsMayDifferFromTheirKind) {
   EXPECT_DOUBLE_EQ(panel.strands[1].material.density, 910e-12);
 }
 
+// Rows of different thickness: points fill each exactly, their height is near that of the thinnest row's, rows share
+// their faces, and the platens lie on the outer ones.
+TEST(MakePanel, RowsTakeTheirThickness) {
+  auto mat = random_mat(3);
+  mat.layers[0].thickness_mm = 1.1;
+  mat.layers[2].thickness_mm = 2.0;
+  const auto panel = make_panel(mat, kinds(), .8 / 6, 6);
+  EXPECT_DOUBLE_EQ(panel.initial_thickness_mm, 1.1 + .8 + 2.0);
+  EXPECT_EQ(panel.top_mm, panel.initial_thickness_mm);
+  const std::array<int, 3> points{8, 6, 15};  // 8.25, 6, 15
+  const std::array<double, 4> faces{0, 1.1, 1.9, 3.9};
+  for (const auto& s : panel.strands) {
+    const auto row = static_cast<std::size_t>(s.row);
+    EXPECT_EQ(s.points[1], points[row]);
+    EXPECT_NEAR(formed_thickness(s), faces[row + 1] - faces[row], 1e-13);
+    EXPECT_NEAR(s.x.front()[1] - s.spacing[1] / 2, faces[row], 1e-13);
+    EXPECT_NEAR(s.x.back()[1] + s.spacing[1] / 2, faces[row + 1], 1e-13);
+    EXPECT_NEAR(s.spacing[1], .8 / 6, .04 * .8 / 6);
+  }
+  EXPECT_NEAR(thinnest_strand(panel), .8, 1e-15);
+}
+
+// The press sees softened wood, the tests the material's own stiffness.
+TEST(MakePanel, StrandsAreSoftenedAsTheirKind) {
+  auto soft = kinds();
+  soft[0].yield_factor = .5;
+  soft[0].stiffness_factor = .25;
+  const auto s = make_panel(one_strand(0, 100), soft, .4, 3).strands[0];
+  const auto cold = wood::in_strand_axes(wood::library()[0], 0);
+  EXPECT_EQ(s.material.stiffness, cold.stiffness);
+  EXPECT_EQ(s.stiffness_factor, .25);
+  EXPECT_LT((s.material.hill - 4 * cold.hill).norm(), 1e-15);
+  EXPECT_EQ(s.material.hardening_K, 60);
+}
+
+// Length x thickness x density: 100 mm of .8 mm poplar, over it 60 mm of 1.5 mm VTC and 20 mm of the same row in
+// poplar.
+TEST(Weigh, CountsEveryStrandWithItsOwnMaterialAndThickness) {
+  auto mat = one_strand(0, 100);
+  mat.layers[1] = {"skin", {{0, 60, {}, {}, {}}, {70, 90, {}, "poplar", {}}}, {}, 1.5};
+  const double poplar = 100 * .8 * 350, vtc = 60 * 1.5 * 910, mixed = 20 * 1.5 * 350, total = poplar + vtc + mixed;
+  const auto weight = weigh(mat, kinds());
+  EXPECT_NEAR(weight.kg_per_m2, total / 100 * 1e-3, 1e-12);
+  ASSERT_EQ(weight.by_kind.size(), 2U);
+  EXPECT_EQ(weight.by_kind[0].name, "surface");
+  EXPECT_NEAR(weight.by_kind[0].fraction, poplar / total, 1e-14);
+  EXPECT_EQ(weight.by_kind[1].name, "skin");
+  EXPECT_NEAR(weight.by_kind[1].fraction, (vtc + mixed) / total, 1e-14);
+  ASSERT_EQ(weight.by_material.size(), 2U);
+  EXPECT_NEAR(weight.by_material[0].fraction, (poplar + mixed) / total, 1e-14);
+  EXPECT_NEAR(weight.by_material[1].fraction, vtc / total, 1e-14);
+}
+
 TEST(MakePanel, UnknownRoleAndMaterialAreInputErrors) {
   auto mat = one_strand(0, 100);
-  mat.layers[1].role = "veneer";
+  mat.layers[1].role = "surfaces";
   try {
     make_panel(mat, kinds(), 0.4, 3);
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("layer 2: role \"veneer\""), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("layer 2: role \"surfaces\""), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("did you mean \"surface\"?"), std::string::npos) << error.what();
   }
   mat = one_strand(0, 100);
-  mat.layers[1].strands[0].material = "balsa";
+  mat.layers[1].strands[0].material = "popler";
   try {
     make_panel(mat, kinds(), 0.4, 3);
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("\"balsa\""), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("\"popler\"; did you mean \"poplar\"?"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("Materials: \"poplar\", \"vtc\""), std::string::npos) << error.what();
   }
 }
 

@@ -17,7 +17,7 @@ const wood::Material& poplar() {
 }
 
 Row full_row(double angle_deg = 0) {
-  return {poplar(), angle_deg, {0, 0, 0, 0}};
+  return {poplar(), angle_deg, {0, 0, 0, 0}, .8, 0};
 }
 
 // E_S = 9936 * 150/165 = 9032.7 and E_C = 427 * 25/35 = 305 MPa, half of each: 4668.9 MPa.
@@ -98,8 +98,40 @@ TEST(Theory, ShearLagPanelKeepsTheCore) {
   const auto rows = default_osb();
   const double expected =
       (shear_lag_modulus_MPa({9936, 745, 150.0 / 165, 1500, 500, 150, .8}, .01628) + 427 * 25.0 / 35) / 2;
-  EXPECT_NEAR(shear_lag_panel_MPa(rows, .8, {}, .01628, 0), expected, 1e-9);
-  EXPECT_NEAR(shear_lag_panel_MPa(rows, .8, {}, .01628, .3), expected / .7, 1e-9);
+  EXPECT_NEAR(shear_lag_panel_MPa(rows, {}, .01628, 0), expected, 1e-9);
+  EXPECT_NEAR(shear_lag_panel_MPa(rows, {}, .01628, .3), expected / .7, 1e-9);
+}
+
+// A row twice as thick is two rows, wherever it lies; in tension and density its share counts, in bending its place
+// too.
+TEST(Theory, AThickRowIsSeveralThinOnes) {
+  const Row vtc{wood::library()[1], 0, {0, 0, 0, 0}, .4, 0};
+  Row thick = vtc;
+  thick.thickness_mm = 1.2;
+  const std::vector<Row> thin{vtc, vtc, vtc, full_row(90), full_row()}, mixed{thick, full_row(90), full_row()};
+  for (const auto choice : {OffAxis::kExact, OffAxis::kUncoupled}) {
+    EXPECT_NEAR(tension_modulus_MPa(mixed, .1, choice), tension_modulus_MPa(thin, .1, choice), 1e-8);
+    EXPECT_NEAR(bending_modulus_MPa(mixed, .1, choice), bending_modulus_MPa(thin, .1, choice), 1e-8);
+    EXPECT_NEAR(random_core_modulus_MPa(mixed, 4000, .1, choice), random_core_modulus_MPa(thin, 4000, .1, choice),
+                1e-8);
+  }
+  EXPECT_NEAR(density_kg_m3(mixed, 0), (910 * 1.2 + 350 * 1.6) / 2.8, 1e-10);
+  EXPECT_NEAR(tension_modulus_MPa(mixed, 0), (24311 * 1.2 + (9936 + 427) * .8) / 2.8, 1e-8);
+}
+
+// Rows of strands at any angle have the mean over angles, and are core; a narrow spread about the section is not.
+TEST(Theory, RowsOfRandomAngles) {
+  Row core = full_row();
+  core.angle_spread_deg = 90;
+  EXPECT_NEAR(tension_modulus_MPa({core}, 0, OffAxis::kExact), 4297.9, .05);
+  EXPECT_NEAR(tension_modulus_MPa({core}, 0), 2483, .5);
+  EXPECT_FALSE(runs_along(core));
+  core.angle_spread_deg = 20;
+  EXPECT_TRUE(runs_along(core));
+  // Second order in a small spread: the mean over +-d of E(angle) is E(0) + E''(0) d^2/6.
+  core.angle_spread_deg = .1;
+  const double second = (off_axis_modulus_MPa(poplar(), 1) - poplar().E_L) * 2;  // per square degree
+  EXPECT_NEAR(tension_modulus_MPa({core}, 0), poplar().E_L + second * .01 / 6, 1e-3);
 }
 
 TEST(Theory, DensityAndModulusGrowTogether) {
@@ -178,7 +210,7 @@ TEST(Estimate, BadListsAreNamed) {
   question.rows = {full_row(90)};
   EXPECT_THROW(estimate(question), InputError);
   question.gaps_mm.clear();
-  question.row_thickness_mm = 0;
+  question.rows.front().thickness_mm = 0;
   EXPECT_THROW(estimate(question), InputError);
 }
 
