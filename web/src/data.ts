@@ -4,6 +4,9 @@ export interface Kind {
   name: string;
   material: string;
   angle_deg: number;
+  angle_spread_deg?: number;
+  yield_factor?: number;
+  stiffness_factor?: number;
 }
 
 export interface Material {
@@ -41,7 +44,7 @@ export interface MatStrand {
 export interface MatData {
   length_mm: number;
   layer_thickness_mm: number;
-  layers: {role: string; strands: MatStrand[]}[];
+  layers: {role: string; thickness_mm?: number; strands: MatStrand[]}[];
 }
 
 export interface TestState {
@@ -57,6 +60,8 @@ export interface RunRecord {
   seed?: number;
   date?: string;
   case_name?: string;
+  mat?: {kg_per_m2: number; weight_fraction_by_kind: Record<string, number>; weight_fraction_by_material: Record<string, number>};
+  derived_constants?: string[];
   machine?: {host?: string; cpu?: string; cores?: number; system?: string};
   steps: {
     press?: {

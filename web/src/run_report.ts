@@ -264,7 +264,9 @@ function facts(title: string, rows: [string, string][]): HTMLElement {
 function caseFacts(run: Run): HTMLElement {
   const c = run.case;
   const glue = c.compliances_t_mm_per_MPa.map(v => (v === 0 ? '0 (perfect)' : String(v))).join(', ');
+  const derived = run.record.derived_constants ?? [];
   return el('div', {class: 'grid'},
+    ...derived.map(line => el('p', {class: 'note'}, `${line[0]?.toUpperCase() ?? ''}${line.slice(1)}.`)),
     ...c.materials.map(m => facts(`Material: ${m.name}`, [
       ['Density', `${m.density_kg_m3} kg/m³`],
       ['Moduli E_L, E_R, E_T', `${m.E_L_MPa}, ${m.E_R_MPa}, ${m.E_T_MPa} MPa`],
@@ -335,7 +337,7 @@ export function runReport(run: Run): {title: string; content: Node[]; view?: Sec
     press.length > 0 ? section('Pressing', grid(press)) : null,
     moduli.length > 0 ? section('Stiffness', grid(moduli)) : null,
     histograms.length > 0 ? section('Density and shape', grid(histograms)) : null,
-    section('The case', run.mat ? layupFigure(run.mat, run.case) : null, caseFacts(run)),
+    section('The case', run.mat ? layupFigure(run.mat, run.case, run.record) : null, caseFacts(run)),
     provenance(run),
     el('footer', {}, `strandlab ${run.record.strandlab ?? ''}. The numbers are in the CSV files of the run folder.`),
   ];

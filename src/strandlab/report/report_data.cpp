@@ -59,8 +59,15 @@ Json describe(const wood::Material& m) {
 
 Json describe(const io::Case& c) {
   Json kinds = Json::array(), materials = Json::array();
-  for (const auto& kind : io::strand_kinds(c)) {
-    kinds.push_back({{"name", kind.name}, {"material", kind.material.name}, {"angle_deg", kind.angle_deg}});
+  const auto strand_kinds = io::strand_kinds(c);
+  for (std::size_t i = 0; i < strand_kinds.size(); ++i) {
+    const auto& kind = strand_kinds[i];
+    kinds.push_back({{"name", kind.name},
+                     {"material", kind.material.name},
+                     {"angle_deg", kind.angle_deg},
+                     {"angle_spread_deg", c.kinds[i].angle_spread_deg},
+                     {"yield_factor", kind.yield_factor},
+                     {"stiffness_factor", kind.stiffness_factor}});
     const auto known = [&](const Json& m) { return m.at("name") == kind.material.name; };
     if (std::none_of(materials.begin(), materials.end(), known)) materials.push_back(describe(kind.material));
   }
