@@ -20,8 +20,8 @@ const StrandKind& find_kind(const std::vector<StrandKind>& kinds, const std::str
   for (const auto& kind : kinds) {
     if (kind.name == role) return kind;
   }
-  std::vector<std::string> names;
-  for (const auto& kind : kinds) names.push_back(kind.name);
+  std::vector<std::string> names(kinds.size());
+  std::transform(kinds.begin(), kinds.end(), names.begin(), [](const auto& kind) { return kind.name; });
   throw InputError(fmt::format("layer {}: role \"{}\" is not a strand kind of the case{} Strand kinds: {}", layer + 1,
                                role, did_you_mean(role, names), quoted_list(names)));
 }

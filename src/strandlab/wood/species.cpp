@@ -29,8 +29,8 @@ const Species& find_species(const std::string& name) {
   const auto& list = species();
   const auto found = std::find_if(list.begin(), list.end(), [&](const Species& s) { return s.name == name; });
   if (found != list.end()) return *found;
-  std::vector<std::string> names;
-  for (const auto& s : list) names.push_back(s.name);
+  std::vector<std::string> names(list.size());
+  std::transform(list.begin(), list.end(), names.begin(), [](const Species& s) { return s.name; });
   const auto near = nearest(name, names);
   throw InputError(fmt::format("there are no elastic ratios of a species \"{}\"{} Species: {}", name,
                                near.empty() ? "." : fmt::format("; did you mean \"{}\"?", near), quoted_list(names)));

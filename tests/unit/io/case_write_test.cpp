@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <set>
 #include <string>
-#include <utility>
 
 #include "case_samples.hpp"
 #include "strandlab/core/error.hpp"
@@ -99,29 +98,6 @@ TEST(CaseWrite, Chapter5CasesVaryLengthAndGap) {
       EXPECT_EQ(c.kinds[1].statistics.length_mm, 25);
       EXPECT_EQ(c.rows, Case().rows);
     }
-  }
-}
-
-// Weight fraction of each panel's VTC: exactly that of its own mat, and over many mats that of its rows: solid fraction
-// times density, VTC 125/140 * 910 and core 25/35 * 350 kg/m3, 25.5 % and 48.1 % by weight.
-TEST(CaseWrite, WeightFractionsAreThoseOfTheMat) {
-  for (const auto& [name, expected] : {std::pair{"rathi20_vtc", 0.2549}, std::pair{"rathi40_vtc", 0.4814}}) {
-    auto c = ready_case(name);
-    const auto mat = make_mat(c);
-    double vtc = 0, all = 0;
-    for (const auto& layer : mat.layers) {
-      for (const auto& strand : layer.strands) {
-        const double mass = (strand.x1_mm - strand.x0_mm) * .8 * (layer.role == "surface" ? 910 : 350);
-        all += mass;
-        if (layer.role == "surface") vtc += mass;
-      }
-    }
-    const auto weight = weigh(c, mat);
-    ASSERT_EQ(weight.by_material[0].name, "vtc");
-    EXPECT_NEAR(weight.by_material[0].fraction, vtc / all, 1e-14) << name;
-    EXPECT_EQ(weight.by_kind[0].fraction, weight.by_material[0].fraction) << name;
-    c.length_mm = 1e5;
-    EXPECT_NEAR(weigh(c, make_mat(c)).by_material[0].fraction, expected, 0.002) << name;
   }
 }
 
