@@ -1,0 +1,56 @@
+// Up to 16 m/s the platens' speed does not show in the density profile; from 64 m/s on inertia does. The measure is the
+// replicates' own band, the half width of the 95 % t-interval of their mean, root mean square over the thickness.
+// Compared early in the pressing, where inertia is largest against what the wood withstands: later the wood is pressed
+// flat at any speed.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "support/report.hpp"
+#include "verification/profile/mats.hpp"
+
+namespace strandlab::profile_tests {
+namespace {
+
+void expect_within_band(Job job, int n, double reference_speed, const std::vector<double>& slow,
+                        const std::vector<double>& fast) {
+  job.speed_m_s = reference_speed;
+  const auto reference = replicates(job, n);
+  const double band = half_band(reference);
+  const auto over_band = [&](double speed) {
+    job.speed_m_s = speed;
+    return profile::rms_difference(reference.profile(), replicates(job, n).profile()) / band;
+  };
+  for (const double speed : slow) {
+    const double ratio = over_band(speed);
+    report(fmt::format("{} against {} m/s: rms difference over the band", speed, reference_speed), ratio, "< 0.5");
+    EXPECT_LT(ratio, 0.5) << speed << " m/s";
+  }
+  for (const double speed : fast) {
+    const double ratio = over_band(speed);
+    report(fmt::format("{} against {} m/s: rms difference over the band", speed, reference_speed), ratio, "> 1");
+    EXPECT_GT(ratio, 1) << speed << " m/s";
+  }
+}
+
+// Short, thin mats: their band is wide, and it takes more speed to leave it.
+TEST(PlatenSpeed, OfShortMatsShowsOnlyWhenFast) {
+  Job job;
+  job.length_mm = 40;
+  job.surface_rows = 3;
+  job.core_rows = 6;
+  job.compactions = {0.05};
+  expect_within_band(job, 4, 16, {8}, {256});
+}
+
+// Mats of the main job's size.
+TEST(PlatenSpeed, OfFullMatsShowsFrom64MetresASecondNightly) {
+  Job job;
+  job.length_mm = 100;
+  job.surface_rows = 5;
+  job.core_rows = 10;
+  job.compactions = {0.05};
+  expect_within_band(job, 5, 16, {4, 8}, {64, 128});
+}
+
+}  // namespace
+}  // namespace strandlab::profile_tests
