@@ -34,6 +34,7 @@ Json to_json(double compaction, const vtest::Result& result, double wall_s) {
                       {"compliance_t_mm_per_MPa", m.compliance_t_mm_per_MPa},
                       {"modulus_MPa", m.modulus_MPa},
                       {"reaction_modulus_MPa", m.reaction_modulus_MPa}});
+    if (m.shear_free_modulus_MPa) moduli.back()["shear_free_modulus_MPa"] = *m.shear_free_modulus_MPa;
   }
   return {{"compaction", compaction},
           {"moduli", moduli},
@@ -54,6 +55,7 @@ std::vector<report::PanelModulus> moduli_of(const Json& states) {
     for (const auto& m : state.at("moduli")) {
       moduli.push_back({state.at("compaction"), m.at("test"), m.at("compliance_t_mm_per_MPa"), m.at("modulus_MPa"),
                         m.at("reaction_modulus_MPa")});
+      if (m.contains("shear_free_modulus_MPa")) moduli.back().shear_free_modulus_MPa = m["shear_free_modulus_MPa"];
     }
   }
   return moduli;
@@ -104,8 +106,10 @@ void test_state(Journey& journey, const Panel<2>& panel, double compaction, Cons
   for (const auto& warning : result.warnings) console.warn(fmt::format("compaction {}: {}", compaction, warning));
   for (std::size_t i = 0; i < std::min(result.moduli.size(), journey.c.test.kinds.size()); ++i) {
     const auto& m = result.moduli[i];
-    console.say(fmt::format("test: compaction {}, {}, 1/D_t = {}: {:.0f} MPa", compaction, vtest::name(m.kind),
-                            m.compliance_t_mm_per_MPa, m.modulus_MPa));
+    const auto shear_free =
+        m.shear_free_modulus_MPa ? fmt::format(" ({:.0f} without shear)", *m.shear_free_modulus_MPa) : "";
+    console.say(fmt::format("test: compaction {}, {}, 1/D_t = {}: {:.0f} MPa{}", compaction, vtest::name(m.kind),
+                            m.compliance_t_mm_per_MPa, m.modulus_MPa, shear_free));
   }
   auto state = to_json(compaction, result, seconds_since(begin));
   state["gap_sensitivity"] = gap_sensitivity(panel, journey.c.test, compaction, console);

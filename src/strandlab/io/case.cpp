@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
@@ -80,6 +81,19 @@ mat::LayupRow layup_row(const KindSettings& kind) {
   return row;
 }
 
+// The thickest state decides: bending on supports is at a span in thicknesses.
+void refuse_too_short(const Case& c, const Panel<2>& panel) {
+  const double compaction = c.schedule.compactions.front();
+  const double thickness = panel.initial_thickness_mm * (1 - compaction);
+  const double needed = vtest::needed_length_mm(c.test, thickness);
+  if (panel.length_mm >= needed * (1 - 1e-9)) return;  // up to round-off
+  throw InputError(fmt::format(
+      "{}: test.kinds: 3- and 4-point bending at a span of {:g} thicknesses need a mat {:.0f} mm long at "
+      "compaction {} ({:.2f} mm thick); mat.length_mm is {:g}. Lengthen the mat, or begin press.compactions "
+      "later",
+      c.name, c.test.span_to_thickness, std::ceil(needed), compaction, thickness, panel.length_mm));
+}
+
 }  // namespace
 
 Case::Case() : kinds{{"surface", "poplar", 0, {150, 20, 15, 4.95}}, {"core", "poplar", 90, {25, 3, 10, 1}}} {
@@ -131,8 +145,10 @@ std::vector<std::string> derived_constants(const Case& c) {
 Panel<2> make_panel(const Case& c, const mat::Mat& mat) {
   refuse_too_large(c, mat);
   const double cell_height = mat::thinnest_layer(mat) / c.grid.cells_through_strand;
-  return strandlab::make_panel(mat, kinds_and_materials(c), cell_height * c.grid.cell_aspect / kPointsPerCell,
-                               c.grid.cells_through_strand * kPointsPerCell);
+  auto panel = strandlab::make_panel(mat, kinds_and_materials(c), cell_height * c.grid.cell_aspect / kPointsPerCell,
+                                     c.grid.cells_through_strand * kPointsPerCell);
+  refuse_too_short(c, panel);
+  return panel;
 }
 
 }  // namespace strandlab::io

@@ -135,8 +135,7 @@ std::vector<std::string> material_names(const Case& c) {
 }
 
 std::vector<std::string> test_names(const Case&) {
-  return {vtest::name(vtest::Kind::kTension), vtest::name(vtest::Kind::kBendingEndRotation),
-          vtest::name(vtest::Kind::kBendingEndCouple)};
+  return vtest::kind_names();
 }
 
 // A user's material starts as its base: this key is read before the constants.
@@ -342,6 +341,10 @@ void add_test_keys(std::vector<Key>& t) {
   t.push_back(key(
       "test.elements_through_strand", "", {.lo = 1, .hi = 64}, "finite elements through the thickness of a strand",
       [](auto& c) -> auto& { return c.test.elements_through_strand; }));
+  t.push_back(key(
+      "test.span_to_thickness", "", {.lo = 8, .hi = 200},
+      "span of 3- and 4-point bending over the panel's thickness: 20 in EN 310, 24 in ASTM D1037",
+      [](auto& c) -> auto& { return c.test.span_to_thickness; }));
 }
 
 void add_run_keys(std::vector<Key>& t) {

@@ -1,5 +1,7 @@
 #include "strandlab/report/result_tables.hpp"
 
+#include <cmath>
+
 namespace strandlab::report {
 
 io::CsvTable press_table(const std::vector<press::Record>& records) {
@@ -15,9 +17,11 @@ io::CsvTable press_table(const std::vector<press::Record>& records) {
 }
 
 io::CsvTable moduli_table(const std::vector<PanelModulus>& moduli) {
-  io::CsvTable table({"compaction", "test", "compliance_t_mm_per_MPa", "modulus_MPa", "reaction_modulus_MPa"});
+  io::CsvTable table({"compaction", "test", "compliance_t_mm_per_MPa", "modulus_MPa", "reaction_modulus_MPa",
+                      "shear_free_modulus_MPa"});
   for (const auto& m : moduli) {
-    table.add_row({m.compaction, m.test, m.compliance_t_mm_per_MPa, m.modulus_MPa, m.reaction_modulus_MPa});
+    table.add_row({m.compaction, m.test, m.compliance_t_mm_per_MPa, m.modulus_MPa, m.reaction_modulus_MPa,
+                   m.shear_free_modulus_MPa.value_or(std::nan(""))});
   }
   return table;
 }

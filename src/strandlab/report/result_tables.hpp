@@ -1,6 +1,7 @@
 // The tables a run leaves: press.csv and moduli.csv.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,17 +13,19 @@ namespace strandlab::report {
 // A modulus of moduli.csv.
 struct PanelModulus {
   double compaction = 0;
-  std::string test;                    // "tension", ...
-  double compliance_t_mm_per_MPa = 0;  // 1/D_t
-  double modulus_MPa = 0;              // from the energy
-  double reaction_modulus_MPa = 0;     // from the reaction
+  std::string test;                                // "tension", ...
+  double compliance_t_mm_per_MPa = 0;              // 1/D_t
+  double modulus_MPa = 0;                          // from the energy
+  double reaction_modulus_MPa = 0;                 // from the reaction
+  std::optional<double> shear_free_modulus_MPa{};  // of 3- and 4-point bending
 };
 
 // compaction, time_ms, stress_MPa, force_top_N, force_bottom_N, kinetic_mJ, internal_mJ, plastic_mJ, elastic_mJ,
 // friction_mJ, contact_mJ, filter_mJ, platen_work_mJ; one row per record.
 io::CsvTable press_table(const std::vector<press::Record>& records);
 
-// compaction, test, compliance_t_mm_per_MPa, modulus_MPa, reaction_modulus_MPa; one row per modulus.
+// compaction, test, compliance_t_mm_per_MPa, modulus_MPa, reaction_modulus_MPa, shear_free_modulus_MPa (nan but for 3-
+// and 4-point bending); one row per modulus.
 io::CsvTable moduli_table(const std::vector<PanelModulus>& moduli);
 
 }  // namespace strandlab::report

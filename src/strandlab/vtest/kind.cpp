@@ -5,7 +5,8 @@
 
 namespace strandlab::vtest {
 namespace {
-constexpr std::array kKinds{Kind::kTension, Kind::kBendingEndRotation, Kind::kBendingEndCouple};
+constexpr std::array kKinds{Kind::kTension, Kind::kBendingEndRotation, Kind::kBendingEndCouple, Kind::kBending3Point,
+                            Kind::kBending4Point};
 }
 
 const char* name(Kind kind) {
@@ -16,13 +17,23 @@ const char* name(Kind kind) {
       return "bending_end_rotation";
     case Kind::kBendingEndCouple:
       return "bending_end_couple";
+    case Kind::kBending3Point:
+      return "bending_3_point";
+    case Kind::kBending4Point:
+      return "bending_4_point";
   }
   return "";
 }
 
+std::vector<std::string> kind_names() {
+  std::vector<std::string> names;
+  for (const Kind kind : kKinds) names.emplace_back(name(kind));
+  return names;
+}
+
 std::string allowed_kinds() {
   std::string text;
-  for (const Kind kind : kKinds) text += (text.empty() ? "" : ", ") + std::string(name(kind));
+  for (const auto& kind : kind_names()) text += (text.empty() ? "" : ", ") + kind;
   return text;
 }
 

@@ -7,15 +7,6 @@
 namespace strandlab::vtest {
 namespace {
 
-statics::Supports no_supports(const statics::LowerMatrix& stiffness) {
-  statics::Supports supports;
-  supports.fixed.assign(static_cast<std::size_t>(stiffness.size()), 0);
-  for (int j = 0; j < stiffness.size(); ++j) {
-    supports.diagonal = std::max(supports.diagonal, stiffness.value[stiffness.column_start[j]]);
-  }
-  return supports;
-}
-
 // Even axial traction of total force 1 N over the right end face of a strand, and the height at which it acts.
 struct EndForce {
   std::vector<std::pair<int, double>> at;  // node, N
@@ -66,6 +57,15 @@ Section make_section(const Panel<2>& panel, const Connection& connection, const 
   }
   section.nodes = mesh.nodes;
   return section;
+}
+
+statics::Supports no_supports(const statics::LowerMatrix& stiffness) {
+  statics::Supports supports;
+  supports.fixed.assign(static_cast<std::size_t>(stiffness.size()), 0);
+  for (int j = 0; j < stiffness.size(); ++j) {
+    supports.diagonal = std::max(supports.diagonal, stiffness.value[stiffness.column_start[j]]);
+  }
+  return supports;
 }
 
 statics::Supports end_plane_supports(const Section& section, const statics::LowerMatrix& stiffness) {

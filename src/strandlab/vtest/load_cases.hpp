@@ -18,6 +18,8 @@ struct Section {
 };
 Section make_section(const Panel<2>& panel, const Connection& connection, const statics::Mesh& mesh);
 
+// Nothing held yet.
+statics::Supports no_supports(const statics::LowerMatrix& stiffness);
 // End planes held in x (tension, end rotation), or the left end clamped (end couple).
 statics::Supports end_plane_supports(const Section& section, const statics::LowerMatrix& stiffness);
 statics::Supports clamped_supports(const Section& section, const statics::LowerMatrix& stiffness);

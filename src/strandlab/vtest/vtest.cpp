@@ -9,11 +9,14 @@
 #include <optional>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/vtest/beam.hpp"
 #include "strandlab/vtest/load_cases.hpp"
 
 namespace strandlab::vtest {
 namespace {
 
+constexpr double kRoundOff = 1e-9;     // of lengths
+constexpr double kShortestSpan = 8;    // thicknesses: room for loads at thirds and for half the span
 constexpr double kSoftestGlue = 1e-3;  // MPa/mm: below this strands slide freely and the stiffness matrix is singular
 
 class Stopwatch {
@@ -27,6 +30,31 @@ class Stopwatch {
   double& total_;
   std::chrono::steady_clock::time_point start_;
 };
+
+bool wants(const Options& options, Kind kind) {
+  return std::find(options.kinds.begin(), options.kinds.end(), kind) != options.kinds.end();
+}
+
+bool on_supports(const Options& options) {
+  return wants(options, Kind::kBending3Point) || wants(options, Kind::kBending4Point);
+}
+
+void check_span(const Panel<2>& panel, const Options& options) {
+  if (!on_supports(options)) return;
+  if (!(options.span_to_thickness >= kShortestSpan)) {
+    throw InputError(
+        fmt::format("a span of {} thicknesses: {:g} or more are possible", options.span_to_thickness, kShortestSpan));
+  }
+  if (!(options.pad_to_thickness > 0 && options.pad_to_thickness <= 1))
+    throw InputError(fmt::format("pads of {} thicknesses: more than 0 and at most 1", options.pad_to_thickness));
+  const double needed = needed_length_mm(options, panel.thickness_mm());
+  if (panel.length_mm < needed * (1 - kRoundOff)) {
+    throw InputError(fmt::format(
+        "bending on supports at a span of {:g} thicknesses of {:.2f} mm needs a panel {:.0f} mm long (span and "
+        "a thickness beyond either support); this one has {:g} mm",
+        options.span_to_thickness, panel.thickness_mm(), std::ceil(needed), panel.length_mm));
+  }
+}
 
 void check(const Panel<2>& panel, const Options& options) {
   if (panel.strands.empty()) throw InputError("the panel has no strands to test");
@@ -45,6 +73,7 @@ void check(const Panel<2>& panel, const Options& options) {
     throw InputError(
         fmt::format("a perfect bond of {} times the wood's stiffness: 10 to 1e6 are possible", options.perfect_bond));
   }
+  check_span(panel, options);
 }
 
 // Stiffness of a glue line of compliance 1/D, between that of a perfect bond and the floor. Says what it changed.
@@ -245,31 +274,100 @@ Modulus end_couple(const Trial& trial, const std::vector<double>& couple, const 
   return modulus;
 }
 
-bool wants(const Options& options, Kind kind) {
-  return std::find(options.kinds.begin(), options.kinds.end(), kind) != options.kinds.end();
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+// Energy that one state's forces spend on another's displacements: from U(a + s b) - U(a - s b) = 2 s (a, b), with s
+// such that both weigh alike.
+double mutual_energy(const Trial& trial, const Response& a, const Response& b) {
+  const double s = std::sqrt(energy(trial, a) / energy(trial, b));
+  auto sum = a, difference = a;
+  sum.add(s, b);
+  difference.add(-s, b);
+  return (energy(trial, sum) - energy(trial, difference)) / (2 * s);
+}
+
+// Responses to a beam test's loads, and to unit forces on what is read off.
+struct BeamResponse {
+  const BeamTest* test;
+  const Response *loaded, *deflection, *gauge;
+};
+
+Modulus apparent(Kind kind, const Trial& trial, const BeamResponse& r) {
+  const auto& section = trial.model.section;
+  Modulus modulus{kind};
+  modulus.modulus_MPa = apparent_modulus(*r.test, section, mutual_energy(trial, *r.loaded, *r.deflection));
+  modulus.reaction_modulus_MPa = apparent_modulus(*r.test, section, dot(r.test->deflection, r.loaded->displacement));
+  return modulus;
+}
+
+// The tests on supports share one factor: loads in balance need no supports but against rigid motion.
+std::vector<Modulus> bend_on_supports(const Trial& trial, const Options& options, statics::Cholesky& cholesky,
+                                      Result& result) {
+  const auto& mesh = trial.model.mesh;
+  const auto& section = trial.model.section;
+  const double span = options.span_to_thickness * section.thickness, pad = options.pad_to_thickness * section.thickness;
+  std::vector<BeamTest> tests;
+  if (wants(options, Kind::kBending3Point)) {
+    tests.push_back(three_point(section, mesh, span, pad));
+    tests.push_back(three_point(section, mesh, 0.5 * span, pad));
+  }
+  if (wants(options, Kind::kBending4Point)) tests.push_back(four_point(section, mesh, span, pad));
+  Vectors loads;
+  for (const auto& test : tests) {
+    loads.push_back(test.forces);
+    loads.push_back(test.deflection);
+    if (!test.gauge.empty()) loads.push_back(test.gauge);
+  }
+  const std::vector<double> none(static_cast<std::size_t>(mesh.dofs()), 0.0);
+  const auto r = respond(trial, rigid_motion_supports(mesh, trial.stiffness), loads, Vectors(loads.size(), none),
+                         cholesky, result);
+  std::vector<Modulus> moduli;
+  std::size_t next = 0;
+  if (wants(options, Kind::kBending3Point)) {
+    auto modulus = apparent(Kind::kBending3Point, trial, {&tests[0], &r[0], &r[1], nullptr});
+    const auto half = apparent(Kind::kBending3Point, trial, {&tests[1], &r[2], &r[3], nullptr});
+    modulus.shear_free_modulus_MPa = modulus_without_shear(span, modulus.modulus_MPa, 0.5 * span, half.modulus_MPa);
+    moduli.push_back(modulus);
+    next = 4;
+  }
+  if (wants(options, Kind::kBending4Point)) {
+    const BeamResponse bent{&tests.back(), &r[next], &r[next + 1], &r[next + 2]};
+    moduli.push_back(apparent(Kind::kBending4Point, trial, bent));
+    moduli.back().shear_free_modulus_MPa =
+        gauge_modulus(*bent.test, section, mutual_energy(trial, *bent.loaded, *bent.gauge));
+  }
+  return moduli;
 }
 
 std::vector<Modulus> measure_kinds(const Trial& trial, const Options& options, statics::Cholesky& cholesky,
                                    Result& result) {
   const auto& section = trial.model.section;
   const std::vector<double> none(static_cast<std::size_t>(trial.model.mesh.dofs()), 0.0);
-  std::optional<Modulus> stretched, rotated, bent;
+  std::vector<Modulus> found;
   if (wants(options, Kind::kTension) || wants(options, Kind::kBendingEndRotation)) {
     Vectors given{end_displacement(section, 1, 0)};
     if (wants(options, Kind::kBendingEndRotation)) given.push_back(end_displacement(section, 0, 1));
     const auto supports = end_plane_supports(section, trial.stiffness);
     const auto r = respond(trial, supports, Vectors(given.size(), none), given, cholesky, result);
-    stretched = tension(trial, r[0]);
-    if (r.size() > 1) rotated = end_rotation(trial, r[0], r[1]);
+    found.push_back(tension(trial, r[0]));
+    if (r.size() > 1) found.push_back(end_rotation(trial, r[0], r[1]));
   }
   if (wants(options, Kind::kBendingEndCouple)) {
     const auto couple = couple_forces(trial.model.connection, trial.model.mesh);
     const auto r = respond(trial, clamped_supports(section, trial.stiffness), {couple}, {none}, cholesky, result);
-    bent = end_couple(trial, couple, r[0]);
+    found.push_back(end_couple(trial, couple, r[0]));
+  }
+  if (on_supports(options)) {
+    const auto bent = bend_on_supports(trial, options, cholesky, result);
+    found.insert(found.end(), bent.begin(), bent.end());
   }
   std::vector<Modulus> moduli;
   for (const Kind kind : options.kinds) {
-    moduli.push_back(*(kind == Kind::kTension ? stretched : kind == Kind::kBendingEndRotation ? rotated : bent));
+    moduli.push_back(*std::find_if(found.begin(), found.end(), [kind](const Modulus& m) { return m.kind == kind; }));
   }
   return moduli;
 }
@@ -280,6 +378,11 @@ Result measure(const Panel<2>& panel, const Options& options) {
   check(panel, options);
   Result result;
   const Model model = make_model(panel, options, result);
+  if (on_supports(options) && model.connection.groups > 1) {
+    throw InputError(
+        fmt::format("bending on supports needs a panel in one piece; this one is in {} that no glue connects",
+                    model.connection.groups));
+  }
   std::optional<statics::Cholesky> cholesky;
   const double normal = glue_stiffness("D_n", options.compliance_n_mm_per_MPa, model.perfect, result.warnings);
   for (const double compliance : options.compliance_t_mm_per_MPa) {
@@ -299,6 +402,10 @@ Result measure(const Panel<2>& panel, const Options& options) {
     }
   }
   return result;
+}
+
+double needed_length_mm(const Options& options, double thickness_mm) {
+  return on_supports(options) ? (options.span_to_thickness + 2) * thickness_mm : 0;
 }
 
 GapSensitivity gap_sensitivity(const Panel<2>& panel, const Options& options) {

@@ -2,6 +2,7 @@
 // static).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,10 @@
 
 namespace strandlab::vtest {
 
-enum class Kind { kTension, kBendingEndRotation, kBendingEndCouple };
-const char* name(Kind kind);                   // "tension", "bending_end_rotation", "bending_end_couple"
+enum class Kind { kTension, kBendingEndRotation, kBendingEndCouple, kBending3Point, kBending4Point };
+const char* name(Kind kind);                   // "tension", "bending_end_rotation", "bending_end_couple",
+                                               // "bending_3_point", "bending_4_point"
+std::vector<std::string> kind_names();         // of all kinds
 Kind kind_from_name(const std::string& name);  // throws InputError with the allowed names
 std::string allowed_kinds();                   // those names, comma-separated
 
@@ -20,7 +23,9 @@ struct Options {
   std::vector<double> compliance_t_mm_per_MPa{0.0};  // 1/D_t; negative is taken as perfect, with a warning
   double compliance_n_mm_per_MPa = 0;                // 1/D_n, likewise
   int elements_through_strand = 3;
-  glue::CuringOptions curing;  // point_spacing_mm = 0: as the elements
+  glue::CuringOptions curing;     // point_spacing_mm = 0: as the elements
+  double span_to_thickness = 20;  // of 3- and 4-point bending: 20 in EN 310, 24 in ASTM D1037
+  double pad_to_thickness = 0.5;  // width of their supports and loads
   double perfect_bond =
       100;  // penalty that finds a perfect bond's tractions, in units of wood stiffness / element length
 };
@@ -29,7 +34,8 @@ struct Modulus {
   Kind kind = Kind::kTension;
   double compliance_t_mm_per_MPa = 0;
   double modulus_MPa = 0;           // from the energy
-  double reaction_modulus_MPa = 0;  // from the reaction; agrees to 1e-6
+  double reaction_modulus_MPa = 0;  // from the reaction (on supports: from the deflection); agrees to 1e-6
+  std::optional<double> shear_free_modulus_MPa{};  // 3- and 4-point bending
 };
 
 struct Result {
@@ -48,9 +54,21 @@ struct Result {
 //  - bending by end couple: x = 0 clamped, axial forces +-P over the end faces of the outermost rows present at x = L,
 //  a lever d
 //    apart: E_b = M^2 L/(2 U I), M = P d; [Le 4.2]
+//  - bending on supports at a span S, in the middle of the panel; loads and supports are pads without horizontal
+//  restraint; w is the deflection of the cross section at midspan against those over the supports, taken from the
+//  mutual energy of the loads with a unit force on w:
+//    3-point: load P at midspan, apparent E = P S^3/(48 I w); without shear from the spans S and S/2 (EN 408, variable
+//    span)
+//    4-point: P/2 at the thirds, apparent E = 23 P S^3/(1296 I w); without shear from the deflection w_l over a length
+//    l between the loads: E = P S l^2/(48 I w_l)
 // with U the energy of wood and glue lines, h the platen gap and I = b h^3/12. Throws InputError for options it cannot
-// use and for a panel of which no strands connect both ends; RunError for an inverted element.
+// use, for a panel of which no strands connect both ends, and for one shorter than needed_length_mm() or in parts that
+// no glue connects where it is bent on supports; RunError for an inverted element.
 Result measure(const Panel<2>& panel, const Options& options);
+
+// Length that a panel of this thickness must have for the tests asked for: 3- and 4-point bending need the span and one
+// thickness beyond either support; 0 without them.
+double needed_length_mm(const Options& options, double thickness_mm);
 
 // How much the curing gap matters: the largest relative change (signed) of any modulus asked for when it is halved and
 // doubled.

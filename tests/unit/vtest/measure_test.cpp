@@ -42,12 +42,15 @@ std::string message_of(const std::function<void()>& action) {
 }
 
 TEST(Kind, HasANameThatLeadsBack) {
-  for (const Kind kind : {Kind::kTension, Kind::kBendingEndRotation, Kind::kBendingEndCouple}) {
+  for (const Kind kind : {Kind::kTension, Kind::kBendingEndRotation, Kind::kBendingEndCouple, Kind::kBending3Point,
+                          Kind::kBending4Point}) {
     EXPECT_EQ(kind_from_name(name(kind)), kind);
   }
+  EXPECT_EQ(kind_names().size(), 5U);
   const auto message = message_of([] { kind_from_name("torsion"); });
   EXPECT_NE(message.find("torsion"), std::string::npos);
-  EXPECT_NE(message.find("tension, bending_end_rotation, bending_end_couple"), std::string::npos);
+  EXPECT_NE(message.find("tension, bending_end_rotation, bending_end_couple, bending_3_point, bending_4_point"),
+            std::string::npos);
 }
 
 // Gap-free strands at 0, 45 and 90 degrees to the section: plane-strain moduli of a row, 10003.3, 3379.3 and 429.9 MPa.
@@ -140,6 +143,42 @@ TEST(Measure, AppliesTheCoupleToStrandsThatReachTheLoadedEnd) {
   const auto without = measure(panel_of({{0, 0, 20}, {1, 0, 20}}), options);
   // The short strand stiffens the clamped end a little; the modulus is per h^3, and h is 1.5 times as large.
   EXPECT_NEAR(with_short_top.moduli[0].modulus_MPa * 3.375 / without.moduli[0].modulus_MPa, 1.03, 0.03);
+}
+
+// One row of 0.8 mm in a window of 20 mm, at a span of 23 thicknesses: exactly span and a thickness beyond the
+// supports.
+TEST(Measure, BendsOnSupportsWhatIsLongEnough) {
+  Options options;
+  options.kinds = {Kind::kBending4Point, Kind::kTension};
+  options.span_to_thickness = 23;
+  const auto result = measure(panel_of({{0, 0, 20}}), options);
+  EXPECT_EQ(result.moduli[0].kind, Kind::kBending4Point);
+  EXPECT_NEAR(*result.moduli[0].shear_free_modulus_MPa, 10003.3, 10);
+  EXPECT_FALSE(result.moduli[1].shear_free_modulus_MPa.has_value());
+  options.span_to_thickness = 23.1;
+  const auto message = message_of([&] { measure(panel_of({{0, 0, 20}}), options); });
+  for (const char* part : {"23.1 thicknesses of 0.80 mm", "needs a panel 21 mm long", "this one has 20 mm"})
+    EXPECT_NE(message.find(part), std::string::npos) << part << " in " << message;
+}
+
+TEST(Measure, BendsOnSupportsOnlyWhatIsInOnePiece) {
+  Options options;
+  options.kinds = {Kind::kBending3Point};
+  options.span_to_thickness = 6.25;
+  const auto stacks = panel_of({{0, 0, 20}, {2, 0, 20}});
+  EXPECT_NE(message_of([&] { measure(stacks, options); }).find("6.25 thicknesses"), std::string::npos);
+  options.span_to_thickness = 8;
+  options.pad_to_thickness = 0;
+  auto panel = panel_of({{0, 0, 20}});
+  EXPECT_NE(message_of([&] { measure(panel, options); }).find("pads of 0 thicknesses"), std::string::npos);
+  options.pad_to_thickness = 0.5;
+  panel = stacks;
+  for (auto& strand : panel.strands) {  // a window of 40 mm
+    for (auto& x : strand.x) x[0] *= 2;
+    for (auto& F : strand.F) F(0, 0) = 2;
+  }
+  panel.length_mm = 40;
+  EXPECT_NE(message_of([&] { measure(panel, options); }).find("in 2 that no glue connects"), std::string::npos);
 }
 
 // A lap joint whose faces open from 0 at x = 8 to 0.24 mm at x = 20: the glued length is proportional to the curing
