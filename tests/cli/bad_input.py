@@ -53,6 +53,8 @@ def overrides():
     expect_bad_input(["mat", "panel.toml", "--set", "press.compactions=[0"], ["--set press.compactions=[0", "key.path=value"])
     expect_bad_input(["mat", "panel.toml", "--set", "pres.speed_m_s=3"], ["did you mean press?"])
     expect_bad_input(["mat", "panel.toml", "--set", "press.speed_m_s=-3"], ["press.speed_m_s = -3 m/s"])
+    expect_bad_input(["mat", "panel.toml", "--set", "test.kinds=[bending_3_point]", "--set", "press.compactions=[0.25]"],
+                     ["span of 20 thicknesses", "264 mm", "0.25", "mat.length_mm"])
     expect_bad_input(["mat", "panel.toml", "--set", "mat.length_mm=1e9"], ["mat.length_mm", "at most 100000"])
     expect_bad_input(["mat", "panel.toml", "--set", "mat.length_mm=1e5", "--set", "grid.cells_through_strand=32",
                       "--set", "grid.cell_aspect=0.25"], ["particles", "MB of memory", "mat.length_mm"])

@@ -135,8 +135,10 @@ TEST(ResultTables, HaveTheColumnsScriptsRelyOn) {
             "compaction,time_ms,stress_MPa,force_top_N,force_bottom_N,kinetic_mJ,internal_mJ,plastic_mJ");
   EXPECT_NE(press.find("\n0.1,0.25,3,301,299,1,12,7,"), std::string::npos) << press;
   EXPECT_EQ(
-      moduli_table({{0.2, "tension", 0.0105, 5432.1, 5432.2}}).text(),
-      "compaction,test,compliance_t_mm_per_MPa,modulus_MPa,reaction_modulus_MPa\n0.2,tension,0.0105,5432.1,5432.2\n");
+      moduli_table({{0.2, "tension", 0.0105, 5432.1, 5432.2}, {0.2, "bending_3_point", 0, 4800.5, 4800.5, 5000.25}})
+          .text(),
+      "compaction,test,compliance_t_mm_per_MPa,modulus_MPa,reaction_modulus_MPa,shear_free_modulus_MPa\n"
+      "0.2,tension,0.0105,5432.1,5432.2,nan\n0.2,bending_3_point,0,4800.5,4800.5,5000.25\n");
 }
 
 }  // namespace

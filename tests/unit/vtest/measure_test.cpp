@@ -153,7 +153,7 @@ TEST(Measure, BendsOnSupportsWhatIsLongEnough) {
   options.span_to_thickness = 23;
   const auto result = measure(panel_of({{0, 0, 20}}), options);
   EXPECT_EQ(result.moduli[0].kind, Kind::kBending4Point);
-  EXPECT_NEAR(*result.moduli[0].shear_free_modulus_MPa, 10003.3, 10);
+  EXPECT_NEAR(*result.moduli[0].shear_free_modulus_MPa, 10003.3, 50);  // three elements through the whole beam
   EXPECT_FALSE(result.moduli[1].shear_free_modulus_MPa.has_value());
   options.span_to_thickness = 23.1;
   const auto message = message_of([&] { measure(panel_of({{0, 0, 20}}), options); });
