@@ -33,7 +33,7 @@ theory::Question question_of(const Arguments& a) {
   q.compactions = a.compactions.empty() ? c.schedule.compactions : a.compactions;
   q.compliances_t = a.compliances.empty() ? c.test.compliance_t_mm_per_MPa : a.compliances;
   for (double& compliance : q.compliances_t) compliance = std::max(compliance, 0.0);  // as the virtual tests take it
-  q.off_axis = theory::off_axis_from_name(a.off_axis);
+  q.off_axis = wood::off_axis_from_name(a.off_axis);
   return q;
 }
 

@@ -114,8 +114,9 @@ mat::Layup layup(const Case& c) {
 std::vector<StrandKind> strand_kinds(const Case& c) {
   std::vector<StrandKind> kinds;
   for (const auto& kind : c.kinds) {
-    kinds.push_back(
-        {kind.name, find_material(c, kind.material), kind.angle_deg, kind.yield_factor, kind.stiffness_factor});
+    kinds.push_back({kind.name, find_material(c, kind.material), kind.angle_deg, kind.yield_factor,
+                     kind.stiffness_factor, c.off_axis});
+    kinds.back().material.law = kind.law;
   }
   return kinds;
 }

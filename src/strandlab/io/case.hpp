@@ -23,6 +23,7 @@ struct KindSettings {
   double angle_spread_deg = 0;                    // each strand's angle is uniform within angle_deg +- this
   double thickness_mm = 0;                        // 0: layer_thickness_mm of the case
   double yield_factor = 1, stiffness_factor = 1;  // softening in the press, StrandKind
+  wood::Law law = wood::Law::kHill;
 };
 
 // [materials.NAME]: a user's material, a built-in one with some constants changed.
@@ -43,6 +44,7 @@ struct Case {
   double layer_thickness_mm = 0.8;
   std::vector<std::string> rows{"surface*5", "core*10", "surface*5"};  // bottom to top, "kind" or "kind*count"
   std::string mat_file;                                                // absolute path; empty: random forming
+  wood::OffAxis off_axis = wood::OffAxis::kExact;
   std::vector<KindSettings> kinds;
   std::vector<MaterialSettings> materials;
   press::Schedule schedule;

@@ -45,6 +45,12 @@ Value to_value(const std::vector<std::string>& v) {
 Value to_value(mpm::Side v) {
   return std::string(v == mpm::Side::kFree ? "free" : "roller");
 }
+Value to_value(wood::Law v) {
+  return std::string(wood::name(v));
+}
+Value to_value(wood::OffAxis v) {
+  return std::string(wood::name(v));
+}
 Value to_value(const std::vector<vtest::Kind>& v) {
   std::vector<std::string> names(v.size());
   std::transform(v.begin(), v.end(), names.begin(), vtest::name);
@@ -61,6 +67,12 @@ void from_value(const Value& value, T& v) {
 }
 void from_value(const Value& value, mpm::Side& v) {
   v = std::get<std::string>(value) == "free" ? mpm::Side::kFree : mpm::Side::kRoller;
+}
+void from_value(const Value& value, wood::Law& v) {
+  v = wood::law_from_name(std::get<std::string>(value));
+}
+void from_value(const Value& value, wood::OffAxis& v) {
+  v = wood::off_axis_from_name(std::get<std::string>(value));
 }
 void from_value(const Value& value, std::vector<vtest::Kind>& v) {
   v.clear();
@@ -193,6 +205,14 @@ void add_mat_keys(std::vector<Key>& t) {
       "mat.file", "", kAny,
       "mat file to press in place of a random mat (its length, thickness and rows hold); \"\" for random",
       [](auto& c) -> auto& { return c.mat_file; }));
+  t.push_back(with_choices(key(
+                               "mat.offaxis", "", kAny,
+                               "rows whose grain lies neither along nor across: held by the section in every "
+                               "direction, or free to shear across (docs/theory.md)",
+                               [](auto& c) -> auto& { return c.off_axis; }),
+                           [](const Case&) -> std::vector<std::string> {
+                             return {wood::name(wood::OffAxis::kExact), wood::name(wood::OffAxis::kUncoupled)};
+                           }));
 }
 
 void add_kind_keys(std::vector<Key>& t) {
@@ -229,6 +249,14 @@ void add_kind_keys(std::vector<Key>& t) {
       "stiffness_factor", "", kSoftening,
       "softening in the hot press: elastic moduli over the material's; virtual tests are cold and take the material's",
       [](auto& k) -> auto& { return k.stiffness_factor; }));
+  t.push_back(with_choices(kind_key(
+                               "law", "", kAny,
+                               "how the strands yield: hill (no change of volume) or crushing (cells collapse); see "
+                               "docs/crushing.md",
+                               [](auto& k) -> auto& { return k.law; }),
+                           [](const Case&) -> std::vector<std::string> {
+                             return {wood::name(wood::Law::kHill), wood::name(wood::Law::kCrushing)};
+                           }));
 }
 
 // A positive constant of wood in MPa (or kg/m^3, or no unit).
@@ -236,6 +264,30 @@ Key constant(const std::string& name, const std::string& unit, Range range, std:
              double wood::Material::*member) {
   return material_key(
       name, unit, range, std::move(help), [member](auto& m) -> auto& { return m.material.*member; });
+}
+
+Key crushing_constant(const std::string& name, const std::string& unit, Range range, std::string help,
+                      double wood::Crushing::*member) {
+  return material_key(
+      "crushing_" + name, unit, range,
+      "kinds with law = \"crushing\": " + help, [member](auto& m) -> auto& { return m.material.crushing.*member; });
+}
+
+void add_crushing_keys(std::vector<Key>& t) {
+  using C = wood::Crushing;
+  t.push_back(crushing_constant("Y_L_MPa", "MPa", kPositiveOrInfinite, "yield stress along the grain", &C::Y_L));
+  t.push_back(crushing_constant("Y_R_MPa", "MPa", kPositiveOrInfinite, "yield stress, radial", &C::Y_R));
+  t.push_back(crushing_constant("Y_T_MPa", "MPa", kPositiveOrInfinite, "yield stress, tangential", &C::Y_T));
+  t.push_back(crushing_constant("S_RT_MPa", "MPa", kPositiveOrInfinite, "yield stress in rolling shear", &C::S_RT));
+  t.push_back(crushing_constant("S_RL_MPa", "MPa", kPositiveOrInfinite, "yield stress in RL shear", &C::S_RL));
+  t.push_back(crushing_constant("S_TL_MPa", "MPa", kPositiveOrInfinite, "yield stress in TL shear", &C::S_TL));
+  t.push_back(crushing_constant("c", "", {.lo = -1, .hi = 1},
+                                "plastic Poisson ratio; 0: no lateral flow, 1: no change of volume", &C::c));
+  t.push_back(crushing_constant("h1", "", kNotNegative, "yield at 1 + h1 x + h2 (x/(x_L - x))^m", &C::h1));
+  t.push_back(crushing_constant("h2", "", kNotNegative, "see h1; x_L = 1 - density uncrushed/1500", &C::h2));
+  t.push_back(crushing_constant("m", "", {.lo = 1}, "see h1", &C::exponent));
+  t.push_back(crushing_constant("start", "", {.lo = 0, .hi = 1, .hi_open = true},
+                                "collapsed part x of the volume as formed (densified wood)", &C::start));
 }
 
 void add_material_keys(std::vector<Key>& t) {
@@ -261,6 +313,7 @@ void add_material_keys(std::vector<Key>& t) {
   t.push_back(
       constant("hardening_K_MPa", "MPa", kNotNegative, "hardening: yield at 1 + (K/Y_R) alpha^n", &M::hardening_K));
   t.push_back(constant("hardening_n", "", kPositive, "exponent of the hardening", &M::hardening_n));
+  add_crushing_keys(t);
 }
 
 void add_press_keys(std::vector<Key>& t) {

@@ -401,6 +401,15 @@ void check_case(const Case& c, const std::vector<Given>& given, const std::strin
           fmt::format("{}: [materials.{}]: {}", where_of(given, source, {"materials", name, ""}), name, e.what()));
     }
   }
+  for (const auto& kind : strand_kinds(c)) {
+    try {
+      wood::validate(kind.material);
+    } catch (const InputError& e) {
+      throw InputError(fmt::format("{}: [kinds.{}] with law = \"{}\": {}",
+                                   where_of(given, source, {"kinds", kind.name, "law"}), kind.name,
+                                   wood::name(kind.material.law), e.what()));
+    }
+  }
   try {
     layup(c);
   } catch (const InputError& e) {

@@ -32,7 +32,7 @@ using hdf5::Writer;
 static_assert(std::numeric_limits<double>::is_iec559 && std::endian::native == std::endian::little,
               "files hold little-endian IEEE doubles; elsewhere HDF5 would convert, which is untested");
 
-constexpr std::int64_t kFormatVersion = 1;
+constexpr std::int64_t kFormatVersion = 2;
 constexpr const char* kCheckpointFormat = "strandlab checkpoint";
 constexpr const char* kPanelFormat = "strandlab panel";
 
@@ -116,7 +116,8 @@ template <class AnyStrand, class Visit>
 void visit_strand(AnyStrand& strand, const Visit& visit) {
   auto& [kind, row, angle, material, stiffness_factor, points, spacing, x, v, F, stress, plastic] = strand;
   static_cast<void>(std::tie(kind, row, points, x, v, F, stress, plastic));  // in datasets of their own
-  auto& [density, stiffness, hill, yield, hardening_K, hardening_n] = material;
+  auto& [density, stiffness, surface, yield, hardening_K, hardening_n, crushing] = material;
+  auto& [limit, start, h1, h2, exponent] = crushing;
   const auto dim = static_cast<hsize_t>(spacing.size());
   visit("angle_deg", Label{"deg", "grain against the section"}, Shape{}, &angle);
   visit("spacing_mm", Label{"mm", "of the material points at formation"}, Shape{dim}, spacing.data());
@@ -124,10 +125,16 @@ void visit_strand(AnyStrand& strand, const Visit& visit) {
         &stiffness_factor);
   visit("density_t_mm3", Label{"t/mm^3", "density at formation"}, Shape{}, &density);
   visit("stiffness_MPa", Label{"MPa", "strand axes, Voigt 11 22 33 23 13 12"}, Shape{6, 6}, stiffness.data());
-  visit("hill_per_MPa2", Label{"1/MPa^2", "f^2 = s^T hill s, strand axes"}, Shape{6, 6}, hill.data());
+  visit("yield_surface_per_MPa2", Label{"1/MPa^2", "f^2 = s^T P s, strand axes"}, Shape{6, 6}, surface.data());
   visit("yield_stress_MPa", Label{"MPa", "Y_R"}, Shape{}, &yield);
   visit("hardening_K_MPa", Label{"MPa", "K: yield at f = 1 + (K/Y_R) alpha^n"}, Shape{}, &hardening_K);
   visit("hardening_n", Label{"1", "n"}, Shape{}, &hardening_n);
+  visit("crushing_limit", Label{"1", "x_L: yield at f = 1 + h1 x + h2 (x/(x_L - x))^m; 0: by K and n"}, Shape{},
+        &limit);
+  visit("crushing_start", Label{"1", "x as formed"}, Shape{}, &start);
+  visit("crushing_h1", Label{"1", "h1"}, Shape{}, &h1);
+  visit("crushing_h2", Label{"1", "h2"}, Shape{}, &h2);
+  visit("crushing_m", Label{"1", "m"}, Shape{}, &exponent);
 }
 
 // Numbers of the material points, one dataset each over all strands, points in the order of the strands.
@@ -139,7 +146,9 @@ void visit_points(AnyStrand& strand, const Visit& visit) {
   visit("deformation_gradient", Label{"1", "since formation, column by column"}, Shape{dim, dim}, strand.F);
   visit("kirchhoff_stress_MPa", Label{"MPa", "strand axes, Voigt 11 22 33 23 13 12, tension positive"}, Shape{6},
         strand.stress);
-  visit("plastic_strain", Label{"1", "accumulated"}, Shape{}, strand.plastic);
+  visit("plastic_strain",
+        Label{"1", "accumulated plastic strain alpha; collapsed part of the volume x where the strand crushes"},
+        Shape{}, strand.plastic);
 }
 
 hsize_t product(const Shape& shape) {

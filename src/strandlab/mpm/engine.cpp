@@ -224,6 +224,7 @@ struct Engine<Dim>::Impl {
       tile_colours.push_back(colours[t]);
     }
     fill(input, body);
+    set_radius(body);
     for (const auto& face : input.faces) add_face(face, tile_of, order.size(), first_tile, body);
     particle_count += input.x.size();
   }
@@ -254,6 +255,22 @@ struct Engine<Dim>::Impl {
                     input.plastic[p] / body.material.hardening_n;
       }
     }
+  }
+
+  // The power law's radius has the same bits in every build; that of crushing is left to the build that will use it.
+  void set_radius(BodyData& body) {
+    if (!body.material.crushes()) return;
+    BodyView<Dim> v{};
+    see_wood(body, v);
+    kernel->set_radius(v, body.blocks);
+  }
+
+  static void see_wood(BodyData& body, BodyView<Dim>& v) {
+    v.blocks = body.data.data();
+    v.components = body.components;
+    v.modes4 = &body.modes4;
+    v.modes6 = &body.modes6;
+    v.crushes = body.material.crushes();
   }
 
   void add_face(const Face<Dim>& face, const std::vector<int>& tile_of, std::size_t tile_count, std::size_t first_tile,
@@ -519,13 +536,10 @@ struct Engine<Dim>::Impl {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       auto& body = bodies[b];
       BodyView<Dim> v{};
-      v.blocks = body.data.data();
-      v.components = body.components;
+      see_wood(body, v);
       v.mass = body.particle_mass();
       v.volume = body.particle_volume();
       for (int a = 0; a < Dim; ++a) v.half_size[a] = 0.5 * body.spacing[a];
-      v.modes4 = &body.modes4;
-      v.modes6 = &body.modes6;
       windows[b].field.window.base = windows[b].field.base.data();
       v.window = windows[b].field.window;
       for (int k = 0; k < 2; ++k) {

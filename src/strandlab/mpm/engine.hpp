@@ -35,7 +35,7 @@ struct Body {
   std::vector<Vec<Dim>> x, v;     // mm, mm/s
   std::vector<Tensor<Dim>> F;
   std::vector<Voigt> stress;    // MPa, Kirchhoff, strand axes
-  std::vector<double> plastic;  // alpha
+  std::vector<double> plastic;  // history of yielding, as in Strand
   std::vector<Face<Dim>> faces;
 };
 

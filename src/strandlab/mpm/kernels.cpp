@@ -1004,7 +1004,7 @@ STRANDLAB_INLINE void strain_increment(const Pack (&A)[9], const Pack (&middle)[
 }
 
 // Elastic trial stress and plastic correction; returns the dissipation per reference volume and adds dtau : d eps.
-template <int N>
+template <class Law, int N>
 STRANDLAB_INLINE Pack update_stress(const wood::YieldModes<N>& modes, const Pack (&strain)[6], const Pack& J,
                                     double* block, int stress, int plastic, Pack& stress_change, long long& yielding,
                                     Mask& finite) {
@@ -1016,11 +1016,11 @@ STRANDLAB_INLINE Pack update_stress(const wood::YieldModes<N>& modes, const Pack
     size += absolute(tau[i]);
   }
   finite = (size < 1e30) & (J > 1e-6);
-  Pack alpha = load(block + plastic * kBlock), radius = load(block + (plastic + 1) * kBlock);
-  const Pack dissipation = wood::return_map<PackOps, N>(modes, tau, J, alpha, radius);
+  Pack history = load(block + plastic * kBlock), radius = load(block + (plastic + 1) * kBlock);
+  const Pack dissipation = wood::return_map<Law, PackOps, N>(modes, tau, J, history, radius);
   const Mask flowing = dissipation > 0.0;
   if (any(flowing)) {
-    store(block + plastic * kBlock, alpha);
+    store(block + plastic * kBlock, history);
     store(block + (plastic + 1) * kBlock, radius);
     for (int l = 0; l < kBlock; ++l) yielding -= flowing[l];
   }
@@ -1032,13 +1032,26 @@ STRANDLAB_INLINE Pack update_stress(const wood::YieldModes<N>& modes, const Pack
   return dissipation;
 }
 
+// The same with the body's law and stress components.
+template <int Dim>
+STRANDLAB_INLINE Pack update_stress(const BodyView<Dim>& body, const Pack (&strain)[6], const Pack& J, double* block,
+                                    Pack& stress_change, long long& yielding, Mask& finite) {
+  using C = Component<Dim>;
+  const auto update = [&]<class Law, int N>(const wood::YieldModes<N>& modes, Law) __attribute__((always_inline)) {
+    return update_stress<Law, N>(modes, strain, J, block, C::stress, C::plastic(N), stress_change, yielding, finite);
+  };
+  if (body.components == 4) {
+    return body.crushes ? update(*body.modes4, wood::CrushingLaw{}) : update(*body.modes4, wood::HillLaw{});
+  }
+  return body.crushes ? update(*body.modes6, wood::CrushingLaw{}) : update(*body.modes6, wood::HillLaw{});
+}
+
 template <int Dim>
 void gather(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame, const double* nodes,
             const unsigned char* lanes, bool profile, TileResult& result) {
   using C = Component<Dim>;
   Lap lap(profile);
-  const int components = body.components;
-  const long stride = static_cast<long>(C::count(components)) * kBlock;
+  const long stride = static_cast<long>(C::count(body.components)) * kBlock;
   Pack plastic{}, kinetic{}, stress_change{}, drift[Dim] = {};
   for (int b = tile.block_begin; b < tile.block_end; ++b) {
     double* block = body.blocks + b * stride;
@@ -1073,10 +1086,7 @@ void gather(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame
     const Pack J = determinant(F);
     Mask ok;
     Pack change_here;
-    const Pack dissipation = components == 4 ? update_stress<4>(*body.modes4, strain, J, block, C::stress,
-                                                                C::plastic(4), change_here, result.yielding, ok)
-                                             : update_stress<6>(*body.modes6, strain, J, block, C::stress,
-                                                                C::plastic(6), change_here, result.yielding, ok);
+    const Pack dissipation = update_stress<Dim>(body, strain, J, block, change_here, result.yielding, ok);
     plastic += select(real, dissipation, Pack{});
     stress_change += select(real, change_here, Pack{});
     if (any(~ok) && result.bad == 0) result.bad = b + 1;
@@ -1091,11 +1101,23 @@ void gather(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame
   }
 }
 
+template <int Dim>
+void set_radius(const BodyView<Dim>& body, int blocks) {
+  using C = Component<Dim>;
+  const auto& crushing = body.components == 4 ? body.modes4->crushing : body.modes6->crushing;
+  for (int b = 0; b < blocks; ++b) {
+    double* plastic =
+        body.blocks + (static_cast<long>(b) * C::count(body.components) + C::plastic(body.components)) * kBlock;
+    Pack slope;
+    store(plastic + kBlock, PackOps::crushing_radius(crushing, load(plastic), slope));
+  }
+}
+
 }  // namespace
 
 template <int Dim>
 const Kernels<Dim>& build() {
-  static constexpr Kernels<Dim> table{&scatter<Dim>, &update_grid<Dim>, &gather<Dim>};
+  static constexpr Kernels<Dim> table{&scatter<Dim>, &update_grid<Dim>, &gather<Dim>, &set_radius<Dim>};
   return table;
 }
 template const Kernels<2>& build<2>();

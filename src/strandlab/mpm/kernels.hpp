@@ -15,8 +15,8 @@ inline constexpr int kMaxFields = 24;  // fields meeting at one node
 template <int Dim>
 struct Component {
   static constexpr int x = 0, v = Dim, F = 2 * Dim, stress = F + Dim * Dim;
-  static constexpr int plastic(int components) { return stress + components; }     // alpha
-  static constexpr int radius(int components) { return stress + components + 1; }  // 1 + (K/Y) alpha^n
+  static constexpr int plastic(int components) { return stress + components; }     // alpha or x, as the law has it
+  static constexpr int radius(int components) { return stress + components + 1; }  // of the yield surface there
   static constexpr int count(int components) { return stress + components + 2; }
 };
 
@@ -66,6 +66,7 @@ struct BodyView {
   double half_size[Dim];  // mm, at formation
   const wood::YieldModes<4>* modes4;
   const wood::YieldModes<6>* modes6;
+  bool crushes;  // by wood::CrushingLaw, else wood::HillLaw
   Window window;
   Window mirror[2];  // nodes of its mirror images in the bottom and top platens; height 0: far away
   int faces;
@@ -148,6 +149,8 @@ struct Kernels {
   void (*update_grid)(const Pencil&, const Frame<Dim>&, const GridView<Dim>&, bool profile, PencilResult&);
   void (*gather)(const Tile&, const BodyView<Dim>&, const Frame<Dim>&, const double* nodes, const unsigned char* lanes,
                  bool profile, TileResult&);
+  // Radius of the yield surface from the history variable, in the bits of gather. For bodies that crush.
+  void (*set_radius)(const BodyView<Dim>&, int blocks);
 };
 
 // The build of the kernels that suits this machine.

@@ -3,6 +3,8 @@
 // namespace.
 #pragma once
 
+#include "strandlab/wood/return_map.hpp"
+
 namespace strandlab::mpm::STRANDLAB_ISA {
 
 inline constexpr int kLanes = 8;
@@ -63,18 +65,6 @@ STRANDLAB_INLINE Pack hardening_slope(double K_over_Y, double n, const Pack& alp
   return r;
 }
 
-// What wood::return_map needs to work on packs.
-struct PackOps {
-  using Value = Pack;
-  STRANDLAB_INLINE static bool any(const Mask& m) { return STRANDLAB_ISA::any(m); }
-  STRANDLAB_INLINE static Pack select(const Mask& c, const Pack& a, const Pack& b) { return c ? a : b; }
-  STRANDLAB_INLINE static Pack square_root(const Pack& a) { return STRANDLAB_ISA::square_root(a); }
-  STRANDLAB_INLINE static Pack absolute(const Pack& a) { return STRANDLAB_ISA::absolute(a); }
-  STRANDLAB_INLINE static Pack hardening_slope(double K_over_Y, double n, const Pack& alpha) {
-    return STRANDLAB_ISA::hardening_slope(K_over_Y, n, alpha);
-  }
-};
-
 // Nearest integer of each lane, as double, by the 1.5*2^52 trick (|a| < 2^31); bits() then holds it in the low half.
 inline constexpr double kRounder = 6755399441055744.0;
 STRANDLAB_INLINE Pack shifted(const Pack& a) {
@@ -85,6 +75,69 @@ STRANDLAB_INLINE Mask bits(const Pack& s) {
   __builtin_memcpy(&m, &s, sizeof m);
   return m - 0x4338000000000000L;
 }
+
+STRANDLAB_INLINE Pack as_pack(const Mask& m) {
+  Pack a;
+  __builtin_memcpy(&a, &m, sizeof a);
+  return a;
+}
+STRANDLAB_INLINE Mask as_bits(const Pack& a) {
+  Mask m;
+  __builtin_memcpy(&m, &a, sizeof m);
+  return m;
+}
+
+inline constexpr double kLn2High = 6.93147180369123816490e-01, kLn2Low = 1.90821492927058770002e-10;
+
+// e^a to a few units in the last place, |a| up to 700: 2^k e^r with |r| <= ln 2 / 2, e^r by its series to r^13.
+STRANDLAB_INLINE Pack exponential(const Pack& argument) {
+  const Pack a = smaller(larger(argument, splat(-700.0)), splat(700.0));
+  const Pack k = shifted(a * 1.44269504088896340736);
+  const Pack n = k - kRounder;
+  const Pack r = (a - n * kLn2High) - n * kLn2Low;
+  const Pack r2 = r * r, r4 = r2 * r2;
+  const Pack low = (1.0 + r) + r2 * (1.0 / 2 + r * (1.0 / 6));
+  const Pack middle = (1.0 / 24 + r * (1.0 / 120)) + r2 * (1.0 / 720 + r * (1.0 / 5040));
+  const Pack high = (1.0 / 40320 + r * (1.0 / 362880)) + r2 * (1.0 / 3628800 + r * (1.0 / 39916800));
+  const Pack highest = 1.0 / 479001600 + r * (1.0 / 6227020800);
+  const Pack series = low + r4 * (middle + r4 * (high + r4 * highest));
+  return series * as_pack((bits(k) + 1023) << 52);
+}
+
+// ln a of normal positive numbers, by fdlibm's e_log.c (Sun Microsystems, 1993).
+STRANDLAB_INLINE Pack logarithm(const Pack& a) {
+  const Mask ia = as_bits(a);
+  const Mask exponent = (ia - 0x3fe6a09e667f3bcdL) >> 52;  // mantissa from sqrt(1/2) to sqrt(2)
+  const Pack f = as_pack(ia - (exponent << 52)) - 1.0;
+  const Pack k = as_pack(exponent + 0x4338000000000000L) - kRounder;
+  const Pack s = f / (2.0 + f);
+  const Pack z = s * s, w = z * z;
+  const Pack even = w * (3.999999999940941908e-01 + w * (2.222219843214978396e-01 + w * 1.531383769920937332e-01));
+  const Pack odd = z * (6.666666666666735130e-01 +
+                        w * (2.857142874366239149e-01 + w * (1.818357216161805012e-01 + w * 1.479819860511658591e-01)));
+  const Pack half = 0.5 * f * f;
+  return k * kLn2High - ((half - (s * (half + (even + odd)) + k * kLn2Low)) - f);
+}
+
+// What wood::return_map needs to work on packs.
+struct PackOps {
+  using Value = Pack;
+  STRANDLAB_INLINE static bool any(const Mask& m) { return STRANDLAB_ISA::any(m); }
+  STRANDLAB_INLINE static Pack select(const Mask& c, const Pack& a, const Pack& b) { return c ? a : b; }
+  STRANDLAB_INLINE static Pack square_root(const Pack& a) { return STRANDLAB_ISA::square_root(a); }
+  STRANDLAB_INLINE static Pack absolute(const Pack& a) { return STRANDLAB_ISA::absolute(a); }
+  STRANDLAB_INLINE static Pack exponential(const Pack& a) { return STRANDLAB_ISA::exponential(a); }
+  STRANDLAB_INLINE static Pack power(const Pack& base, double exponent) {
+    return STRANDLAB_ISA::exponential(exponent * STRANDLAB_ISA::logarithm(base));
+  }
+  STRANDLAB_INLINE static Pack hardening_slope(double K_over_Y, double n, const Pack& alpha) {
+    return STRANDLAB_ISA::hardening_slope(K_over_Y, n, alpha);
+  }
+  // One function for all its uses: what a restart computes from the history variable is what the run had, to the bit.
+  [[gnu::noinline]] static Pack crushing_radius(const wood::CrushingHardening& h, const Pack& x, Pack& slope) {
+    return wood::crushing_radius<PackOps>(h, x, slope);
+  }
+};
 
 // Transposes eight packs: on return row[l] holds lane l of all eight.
 STRANDLAB_INLINE void transpose(Pack (&r)[8]) {

@@ -68,8 +68,9 @@ Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, d
       s.kind = kind.name;
       s.row = static_cast<int>(row);
       s.angle_deg = piece.angle_deg.value_or(kind.angle_deg);
-      s.material =
-          wood::in_strand_axes(wood::softened(find_material(kind, piece, kinds), kind.yield_factor), s.angle_deg);
+      auto wood = wood::softened(find_material(kind, piece, kinds), kind.yield_factor);
+      wood.law = kind.material.law;
+      s.material = wood::in_strand_axes(wood, s.angle_deg, kind.off_axis);
       s.stiffness_factor = kind.stiffness_factor;
       const double length = piece.x1_mm - piece.x0_mm;
       const int along = std::max(1, static_cast<int>(std::lround(length / spacing_along_mm)));
@@ -85,7 +86,7 @@ Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, d
       s.v.assign(n, Vec<2>::Zero());
       s.F.assign(n, Tensor<2>::Identity());
       s.stress.assign(n, Voigt::Zero());
-      s.plastic.assign(n, 0.0);
+      s.plastic.assign(n, s.material.crushing.start);
       panel.strands.push_back(std::move(s));
     }
   }

@@ -21,6 +21,7 @@ struct StrandKind {
   // How heat and moisture soften the strand in the press: yield stresses with the hardening modulus K, and elastic
   // moduli, over those of the material. The pressed panel is tested cold, with the material's own moduli.
   double yield_factor = 1, stiffness_factor = 1;
+  wood::OffAxis off_axis = wood::OffAxis::kExact;
 };
 
 // One strand: points[0] x points[1] (x points[2]) material points, along x [across x] through the thickness (last
@@ -39,7 +40,7 @@ struct Strand {
   std::vector<Vec<Dim>> v;      // mm/s
   std::vector<Tensor<Dim>> F;   // deformation gradient since formation
   std::vector<Voigt> stress;    // MPa, Kirchhoff, strand axes convected with the strand (along = F a0)
-  std::vector<double> plastic;  // alpha, accumulated plastic strain
+  std::vector<double> plastic;  // history of yielding: alpha, accumulated plastic strain, or x where the wood crushes
   std::size_t size() const { return x.size(); }
   double point_volume() const { return spacing.prod(); }  // mm^3 (2D: per mm of depth), at formation
 };
@@ -60,7 +61,7 @@ struct Panel {
 // The panel of a mat before pressing: every strand becomes a lattice with a spacing along it close to
 // `spacing_along_mm` that fills its length exactly. Strands of the thinnest row have `points_through` points through
 // their thickness, others as many as keep the points' height nearest to that. Throws InputError for an unknown role or
-// material, with the nearest known one.
+// material, with the nearest known one. A strand that names a material of its own still yields by the law of its kind.
 Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, double spacing_along_mm,
                     int points_through);
 

@@ -69,16 +69,6 @@ std::vector<double> or_equal(const std::vector<double>& thicknesses_mm, std::siz
 
 }  // namespace
 
-const char* name(OffAxis choice) {
-  return choice == OffAxis::kUncoupled ? "uncoupled" : "exact";
-}
-
-OffAxis off_axis_from_name(const std::string& text) {
-  for (OffAxis choice : {OffAxis::kUncoupled, OffAxis::kExact})
-    if (text == name(choice)) return choice;
-  throw InputError(fmt::format("offaxis '{}' is not known; allowed: exact, uncoupled", text));
-}
-
 double solid_fraction(const mat::StrandStatistics& s) {
   return s.gap_mm > 0 ? s.length_mm / (s.length_mm + s.gap_mm) : 1;
 }

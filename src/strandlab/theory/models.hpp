@@ -10,11 +10,9 @@
 
 namespace strandlab::theory {
 
-// How a strand whose grain is neither along nor across the section resists: free to shear (uncoupled, as a bar cut off
-// the grain), or held in plane strain as in the simulations (exact).
-enum class OffAxis { kUncoupled, kExact };
-const char* name(OffAxis choice);                     // "uncoupled", "exact"
-OffAxis off_axis_from_name(const std::string& name);  // throws InputError with the allowed names
+// How a strand whose grain is neither along nor across the section resists: as a bar cut off the grain, which strains
+// and shears freely across (uncoupled), or held in plane strain as in the simulations (exact).
+using wood::OffAxis;
 
 // One row of strands.
 struct Row {

@@ -1,6 +1,7 @@
 #include "strandlab/wood/material.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/LU>
 #include <array>
@@ -12,6 +13,8 @@
 
 namespace strandlab::wood {
 namespace {
+
+constexpr double kCellWallDensity = 1500;  // kg/m^3
 
 // Places of the wood axes and of the shears in the Voigt order of a strand at angle 0.
 constexpr int kL = 0, kT = 1, kR = 2, kTR = 3, kLR = 4, kLT = 5;
@@ -33,6 +36,9 @@ void check_signs(const Material& m) {
       reject(m, fmt::format("{} = {} must be a positive finite number", name, value));
     }
   }
+}
+
+void check_hill_constants(const Material& m) {
   const std::array<std::pair<const char*, double>, 6> yields{
       {{"Y_L", m.Y_L}, {"Y_R", m.Y_R}, {"Y_T", m.Y_T}, {"S_RT", m.S_RT}, {"S_RL", m.S_RL}, {"S_TL", m.S_TL}}};
   for (const auto& [name, value] : yields) {
@@ -98,9 +104,45 @@ void check_hill(const Material& m) {
   }
 }
 
-// f^2 = s^T P s in wood axes; F, G, H of physics.md 1.3 (Hill 1950). An infinite yield stress leaves a zero.
+void check_crushing(const Material& m) {
+  const auto& k = m.crushing;
+  const std::array<std::pair<const char*, double>, 6> yields{{{"crushing_Y_L", k.Y_L},
+                                                              {"crushing_Y_R", k.Y_R},
+                                                              {"crushing_Y_T", k.Y_T},
+                                                              {"crushing_S_RT", k.S_RT},
+                                                              {"crushing_S_RL", k.S_RL},
+                                                              {"crushing_S_TL", k.S_TL}}};
+  for (const auto& [name, value] : yields) {
+    if (!(value > 0)) reject(m, fmt::format("{} = {} must be positive (or infinite: never yields)", name, value));
+  }
+  if (!(std::abs(k.c) <= 1)) {
+    reject(m,
+           fmt::format("yield surface is not positive semi-definite: crushing_c = {} must lie between -1 and 1", k.c));
+  }
+  for (const auto& [name, value] : {std::pair{"crushing_h1", k.h1}, {"crushing_h2", k.h2}}) {
+    if (!(value >= 0) || !std::isfinite(value)) {
+      reject(m, fmt::format("{} = {} must be zero or a positive finite number", name, value));
+    }
+  }
+  if (!(k.exponent >= 1) || !std::isfinite(k.exponent)) {
+    reject(m, fmt::format("crushing_m = {} must be a finite number of at least 1 (below, hardening starts infinitely "
+                          "steep)",
+                          k.exponent));
+  }
+  if (!(k.start >= 0 && k.start < 1))
+    reject(m, fmt::format("crushing_start = {} must be from 0 to less than 1", k.start));
+  if (!(m.density_kg_m3 < kCellWallDensity)) {
+    reject(m, fmt::format("density_kg_m3 = {} leaves nothing to crush: it must be below that of the cell wall, {}",
+                          m.density_kg_m3, kCellWallDensity));
+  }
+}
+
+double inverse_square(double y) {
+  return 1 / (y * y);
+}
+
+// f^2 = s^T P s in wood axes; F, G, H after Hill (1950). An infinite yield stress leaves a zero.
 VoigtMatrix hill_in_wood_axes(const Material& m) {
-  const auto inverse_square = [](double y) { return 1 / (y * y); };
   const double l = inverse_square(m.Y_L), r = inverse_square(m.Y_R), t = inverse_square(m.Y_T);
   VoigtMatrix P = VoigtMatrix::Zero();
   P(kL, kL) = l;
@@ -113,6 +155,23 @@ VoigtMatrix hill_in_wood_axes(const Material& m) {
   P(kLR, kLR) = inverse_square(m.S_RL);
   P(kLT, kLT) = inverse_square(m.S_TL);
   return P;
+}
+
+VoigtMatrix crushing_in_wood_axes(const Crushing& k) {
+  VoigtMatrix P = VoigtMatrix::Zero();
+  P(kL, kL) = inverse_square(k.Y_L);
+  P(kR, kR) = inverse_square(k.Y_R);
+  P(kT, kT) = inverse_square(k.Y_T);
+  P(kR, kT) = P(kT, kR) = -k.c / (k.Y_R * k.Y_T);
+  P(kTR, kTR) = inverse_square(k.S_RT);
+  P(kLR, kLR) = inverse_square(k.S_RL);
+  P(kLT, kLT) = inverse_square(k.S_TL);
+  return P;
+}
+
+CrushingHardening crushing_hardening(const Material& m) {
+  const auto& k = m.crushing;
+  return {1 - m.density_kg_m3 * (1 - k.start) / kCellWallDensity, k.start, k.h1, k.h2, k.exponent};
 }
 
 // Cosine and sine, exact at the multiples of 90 degrees so that aligned strands have exact zeros.
@@ -157,7 +216,43 @@ VoigtMatrix symmetric(const VoigtMatrix& A) {
   return 0.5 * (A + A.transpose());
 }
 
+// Without the entries between the stresses of the section (11, 22, 33, 13) and the shears across (23, 12), and between
+// these two.
+VoigtMatrix without_shears_across(VoigtMatrix A) {
+  for (const int shear : {3, 5}) {
+    for (int i = 0; i < 6; ++i) {
+      if (i != shear) A(i, shear) = A(shear, i) = 0;
+    }
+  }
+  return A;
+}
+
+// Name of one of an enum's values: "exact" of {"exact", "uncoupled"}.
+template <class Choice, std::size_t N>
+Choice choice_from_name(const std::string& what, const std::string& text, const std::array<Choice, N>& choices) {
+  std::vector<std::string> names;
+  for (const Choice choice : choices) {
+    if (text == name(choice)) return choice;
+    names.emplace_back(name(choice));
+  }
+  throw InputError(fmt::format("{} '{}' is not known; allowed: {}", what, text, fmt::join(names, ", ")));
+}
+
 }  // namespace
+
+const char* name(Law law) {
+  return law == Law::kHill ? "hill" : "crushing";
+}
+Law law_from_name(const std::string& text) {
+  return choice_from_name("law", text, std::array{Law::kHill, Law::kCrushing});
+}
+
+const char* name(OffAxis choice) {
+  return choice == OffAxis::kExact ? "exact" : "uncoupled";
+}
+OffAxis off_axis_from_name(const std::string& text) {
+  return choice_from_name("offaxis", text, std::array{OffAxis::kExact, OffAxis::kUncoupled});
+}
 
 const std::vector<Material>& library() {
   static const std::vector<Material> materials = [] {
@@ -173,6 +268,7 @@ const std::vector<Material>& library() {
     vtc.G_TL = 1486;
     vtc.G_RT = 235;
     vtc.S_RT = 10;
+    vtc.crushing.start = 1 - poplar.density_kg_m3 / vtc.density_kg_m3;  // .615
     return std::vector<Material>{poplar, vtc};
   }();
   return materials;
@@ -181,7 +277,12 @@ const std::vector<Material>& library() {
 void validate(const Material& material) {
   check_signs(material);
   check_positive_definite(material);
-  check_hill(material);
+  if (material.law == Law::kCrushing) {
+    check_crushing(material);
+  } else {
+    check_hill_constants(material);
+    check_hill(material);
+  }
 }
 
 VoigtMatrix compliance(const Material& m) {
@@ -210,19 +311,30 @@ VoigtMatrix stiffness(const Material& m) {
 
 Material softened(Material m, double yield_factor) {
   for (double* stress : {&m.Y_L, &m.Y_R, &m.Y_T, &m.S_RT, &m.S_RL, &m.S_TL, &m.hardening_K}) *stress *= yield_factor;
+  auto& k = m.crushing;
+  for (double* stress : {&k.Y_L, &k.Y_R, &k.Y_T, &k.S_RT, &k.S_RL, &k.S_TL}) *stress *= yield_factor;
   return m;
 }
 
-StrandMaterial in_strand_axes(const Material& material, double angle_deg) {
+StrandMaterial in_strand_axes(const Material& material, double angle_deg, OffAxis off_axis) {
   const auto [c, s] = cos_sin(angle_deg);
   const VoigtMatrix T = strain_to_wood(c, s), Q = stress_to_wood(c, s);
+  const bool crushes = material.law == Law::kCrushing;
+  const VoigtMatrix surface = crushes ? crushing_in_wood_axes(material.crushing) : hill_in_wood_axes(material);
   StrandMaterial out;
   out.density = material.density_kg_m3 * kTonnePerMm3;
   out.stiffness = symmetric(T.transpose() * stiffness(material) * T);
-  out.hill = symmetric(Q.transpose() * hill_in_wood_axes(material) * Q);
+  out.yield_surface = symmetric(Q.transpose() * surface * Q);
   out.Y_R = material.Y_R;
   out.hardening_K = material.hardening_K;
   out.hardening_n = material.hardening_n;
+  if (crushes) out.crushing = crushing_hardening(material);
+  if (off_axis == OffAxis::kUncoupled && c != 0 && s != 0) {
+    // No stress in the shears across: what is left of the compliance and of the surface is the rest of each.
+    const VoigtMatrix compliance_here = symmetric(Q.transpose() * compliance(material) * Q);
+    out.stiffness = symmetric(without_shears_across(compliance_here).inverse());
+    out.yield_surface = without_shears_across(out.yield_surface);
+  }
   return out;
 }
 

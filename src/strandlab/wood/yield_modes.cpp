@@ -11,7 +11,7 @@ YieldModes<N> yield_modes(const StrandMaterial& material) {
   for (int i = 0; i < N; ++i) {
     for (int j = 0; j < N; ++j) {
       C(i, j) = material.stiffness(kModeToVoigt[i], kModeToVoigt[j]);
-      P(i, j) = material.hill(kModeToVoigt[i], kModeToVoigt[j]);
+      P(i, j) = material.yield_surface(kModeToVoigt[i], kModeToVoigt[j]);
     }
   }
   // z = U^T C^(-1/2) tau with C^(1/2) P C^(1/2) = U diag(lambda) U^T.
@@ -29,11 +29,13 @@ YieldModes<N> yield_modes(const StrandMaterial& material) {
       modes.to_modes[i][j] = to(i, j);
       modes.from_modes[i][j] = from(i, j);
     }
+    modes.volume[i] = to(i, 0) + to(i, 1) + to(i, 2);  // eps_e = to^T z
     modes.lambda[i] = yield.eigenvalues()[i] > 1e-12 * yield.eigenvalues()[N - 1] ? yield.eigenvalues()[i] : 0.0;
   }
   modes.Y = material.Y_R;
   modes.K_over_Y = material.hardening_K / material.Y_R;
   modes.exponent = material.hardening_n;
+  modes.crushing = material.crushing;
   return modes;
 }
 

@@ -59,10 +59,11 @@ Strand<Dim> any_strand(AnyDouble& any, int row, std::array<int, Dim> points) {
   fill(strand.spacing);
   strand.material.density = any();
   fill(strand.material.stiffness);
-  fill(strand.material.hill);
+  fill(strand.material.yield_surface);
   strand.material.Y_R = any();
   strand.material.hardening_K = any();
   strand.material.hardening_n = any();
+  strand.material.crushing = {any(), any(), any(), any(), any()};
   std::size_t n = 1;
   for (const int extent : points) n *= static_cast<std::size_t>(extent);
   strand.x.resize(n);
@@ -140,8 +141,10 @@ class Bits {
     add(s.spacing);
     add(s.material.density);
     add(s.material.stiffness);
-    add(s.material.hill);
+    add(s.material.yield_surface);
     for (const double value : {s.material.Y_R, s.material.hardening_K, s.material.hardening_n}) add(value);
+    const auto& k = s.material.crushing;
+    for (const double value : {k.limit, k.start, k.h1, k.h2, k.exponent}) add(value);
     for (const auto& value : s.x) add(value);
     for (const auto& value : s.v) add(value);
     for (const auto& value : s.F) add(value);
@@ -247,7 +250,7 @@ TEST_F(CheckpointFile, EveryDatasetSaysItsUnit) {
   H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, visit, &count);
   H5Fclose(file);
   EXPECT_EQ(count.datasets,
-            6 + 3 + 9 + 5 + 15 + 12 + 12 + 6);  // frame, strands, points, engine, records, pending, press
+            6 + 3 + 14 + 5 + 15 + 12 + 12 + 6);  // frame, strands, points, engine, records, pending, press
   EXPECT_EQ(count.labelled, count.datasets);
 }
 

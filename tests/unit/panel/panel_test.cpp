@@ -143,8 +143,35 @@ TEST(MakePanel, StrandsAreSoftenedAsTheirKind) {
   const auto cold = wood::in_strand_axes(wood::library()[0], 0);
   EXPECT_EQ(s.material.stiffness, cold.stiffness);
   EXPECT_EQ(s.stiffness_factor, .25);
-  EXPECT_LT((s.material.hill - 4 * cold.hill).norm(), 1e-15);
+  EXPECT_LT((s.material.yield_surface - 4 * cold.yield_surface).norm(), 1e-15);
   EXPECT_EQ(s.material.hardening_K, 60);
+}
+
+// The law is the kind's, also for a strand that names a material of its own; densified wood starts crushed.
+TEST(MakePanel, StrandsYieldByTheLawOfTheirKind) {
+  auto crushing = kinds();
+  EXPECT_FALSE(make_panel(one_strand(0, 100), crushing, .4, 3).strands[0].material.crushes());
+  crushing[0].material.law = wood::Law::kCrushing;
+  auto mat = one_strand(0, 100);
+  const auto plain = make_panel(mat, crushing, .4, 3).strands[0];
+  EXPECT_TRUE(plain.material.crushes());
+  EXPECT_EQ(plain.plastic[0], 0);
+  mat.layers[0].strands[0].material = "vtc";
+  const auto dense = make_panel(mat, crushing, .4, 3).strands[0];
+  EXPECT_TRUE(dense.material.crushes());
+  for (const double x : dense.plastic) EXPECT_NEAR(x, 1 - 350.0 / 910, 1e-15);
+}
+
+// Rows off the grain: held (six stresses in a section) or free to shear across (four).
+TEST(MakePanel, RowsOffTheGrainAreHeldOrFreeToShear) {
+  auto turned = kinds();
+  turned[0].angle_deg = 30;
+  const auto held = make_panel(one_strand(0, 100), turned, .4, 3).strands[0].material;
+  turned[0].off_axis = wood::OffAxis::kUncoupled;
+  const auto freed = make_panel(one_strand(0, 100), turned, .4, 3).strands[0].material;
+  EXPECT_GT(std::abs(held.stiffness(0, 5)), 1000);
+  EXPECT_EQ(freed.stiffness(0, 5), 0);
+  EXPECT_LT(freed.stiffness(0, 0), 0.5 * held.stiffness(0, 0));
 }
 
 // Length x thickness x density: 100 mm of .8 mm poplar, over it 60 mm of 1.5 mm VTC and 20 mm of the same row in

@@ -158,8 +158,8 @@ TEST(Theory, BadInputIsNamed) {
   EXPECT_THROW(bending_modulus_MPa({}, 0), InputError);
   EXPECT_THROW(density_kg_m3({}, 0), InputError);
   EXPECT_THROW(modulus_at_density_MPa({full_row()}, 100), InputError);
-  EXPECT_THROW(off_axis_from_name("none"), InputError);
-  EXPECT_EQ(off_axis_from_name("exact"), OffAxis::kExact);
+  EXPECT_THROW(wood::off_axis_from_name("none"), InputError);
+  EXPECT_EQ(wood::off_axis_from_name("exact"), OffAxis::kExact);
 }
 
 TEST(Estimate, EveryModelAtEveryCombination) {

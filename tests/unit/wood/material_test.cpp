@@ -95,7 +95,7 @@ TEST(StrandAxes, CoreStrandIsAPermutation) {
     for (int i = 0; i < 6; ++i) {
       for (int j = 0; j < 6; ++j) {
         EXPECT_EQ(core.stiffness(i, j), along.stiffness(swap[i], swap[j]));
-        EXPECT_EQ(core.hill(i, j), along.hill(swap[i], swap[j]));
+        EXPECT_EQ(core.yield_surface(i, j), along.yield_surface(swap[i], swap[j]));
       }
     }
   }
@@ -131,9 +131,9 @@ TEST(StrandAxes, EnergyAndYieldFunctionAreInvariant) {
     const auto strand = in_strand_axes(m, angle);
     const Voigt e = voigt(strain, 2), s = voigt(stress, 1);
     EXPECT_NEAR(e.dot(strand.stiffness * e), strain_wood.dot(wood.stiffness * strain_wood), 1e-12) << angle;
-    EXPECT_NEAR(s.dot(strand.hill * s), stress_wood.dot(wood.hill * stress_wood), 1e-12) << angle;
+    EXPECT_NEAR(s.dot(strand.yield_surface * s), stress_wood.dot(wood.yield_surface * stress_wood), 1e-12) << angle;
     EXPECT_EQ(strand.stiffness, strand.stiffness.transpose());
-    EXPECT_EQ(strand.hill, strand.hill.transpose());
+    EXPECT_EQ(strand.yield_surface, strand.yield_surface.transpose());
   }
 }
 
@@ -145,7 +145,7 @@ TEST(Hill, YieldStressesLieOnTheSurface) {
   m.Y_T = 4.8;
   m.S_RL = 6;
   m.S_TL = 7;
-  const VoigtMatrix P = in_strand_axes(m, 0).hill;
+  const VoigtMatrix P = in_strand_axes(m, 0).yield_surface;
   const double yields[6] = {m.Y_L, m.Y_T, m.Y_R, m.S_RT, m.S_RL, m.S_TL};
   for (int i = 0; i < 6; ++i) EXPECT_DOUBLE_EQ(P(i, i) * yields[i] * yields[i], 1) << i;
   Voigt pressure;
@@ -154,7 +154,7 @@ TEST(Hill, YieldStressesLieOnTheSurface) {
 }
 
 TEST(Hill, InfiniteYieldLeavesZeros) {
-  const VoigtMatrix P = in_strand_axes(poplar(), 0).hill;
+  const VoigtMatrix P = in_strand_axes(poplar(), 0).yield_surface;
   for (int i = 0; i < 6; ++i) {
     EXPECT_EQ(P(0, i), 0);  // along the grain
     EXPECT_EQ(P(4, i), 0);  // LR and LT shear
@@ -170,6 +170,81 @@ TEST(StrandAxes, CarriesDensityAndHardening) {
   EXPECT_EQ(s.Y_R, 5);
   EXPECT_EQ(s.hardening_K, 120);
   EXPECT_EQ(s.hardening_n, 4);
+}
+
+// The same invariance for the law that crushes; its surface sees pressure.
+TEST(Crushing, YieldFunctionIsInvariantAndSeesPressure) {
+  Material m = poplar();
+  m.law = Law::kCrushing;
+  m.crushing.Y_T = 2.5;
+  validate(m);
+  const auto wood = in_strand_axes(m, 0);
+  const auto& k = m.crushing;
+  const double yields[6] = {k.Y_L, k.Y_T, k.Y_R, k.S_RT, k.S_RL, k.S_TL};
+  for (int i = 0; i < 6; ++i) EXPECT_DOUBLE_EQ(wood.yield_surface(i, i) * yields[i] * yields[i], 1) << i;
+  EXPECT_DOUBLE_EQ(wood.yield_surface(1, 2), -k.c / (k.Y_R * k.Y_T));
+  Tensor<3> stress;
+  stress << 3, 0.4, -0.3, 0.4, -2, 0.6, -0.3, 0.6, 1.5;
+  const auto voigt = [](const Tensor<3>& a) {
+    Voigt v;
+    v << a(0, 0), a(1, 1), a(2, 2), a(1, 2), a(0, 2), a(0, 1);
+    return v;
+  };
+  for (const double angle : {-90.0, -33.0, 17.0, 45.0, 120.0}) {
+    const double t = angle * std::numbers::pi / 180;
+    Tensor<3> axes;  // columns: wood axes in strand axes
+    axes << std::cos(t), -std::sin(t), 0, std::sin(t), std::cos(t), 0, 0, 0, 1;
+    const Voigt here = voigt(stress), there = voigt(axes.transpose() * stress * axes);
+    const auto strand = in_strand_axes(m, angle);
+    EXPECT_NEAR(here.dot(strand.yield_surface * here), there.dot(wood.yield_surface * there), 1e-12) << angle;
+    EXPECT_EQ(strand.crushing.limit, wood.crushing.limit);
+  }
+  Voigt pressure;
+  pressure << 1, 1, 1, 0, 0, 0;
+  EXPECT_GT(pressure.dot(wood.yield_surface * pressure), 0.1);
+}
+
+// Rows free to shear across: the section's stresses see the rotated compliance and surface with tau_12 = tau_23 = 0,
+// found here by asking the full stiffness which shears make those stresses vanish. The free bar's modulus, nothing
+// held, is that of a bar cut off the grain (Jones, Mechanics of Composite Materials, Eq. 2.97).
+TEST(Uncoupled, LeavesNoStressInTheShearsAcross) {
+  const Material m = poplar();
+  for (const double angle : {-60.0, 20.0, 45.0}) {
+    const auto exact = in_strand_axes(m, angle), freed = in_strand_axes(m, angle, OffAxis::kUncoupled);
+    Voigt strain;
+    strain << 0.01, -0.003, -0.02, 0, 0.006, 0;
+    Eigen::Matrix2d shears;
+    shears << exact.stiffness(3, 3), exact.stiffness(3, 5), exact.stiffness(5, 3), exact.stiffness(5, 5);
+    const Voigt held = exact.stiffness * strain;
+    const Eigen::Vector2d gamma = -shears.inverse() * Eigen::Vector2d(held[3], held[5]);
+    Voigt let = strain;
+    let[3] = gamma[0];
+    let[5] = gamma[1];
+    const Voigt expected = exact.stiffness * let, stress = freed.stiffness * strain;
+    EXPECT_NEAR(expected[3], 0, 1e-12);
+    EXPECT_NEAR(expected[5], 0, 1e-12);
+    for (const int i : {0, 1, 2, 4}) EXPECT_NEAR(stress[i], expected[i], 1e-10) << angle << ", component " << i;
+    Voigt section = stress;
+    section[3] = section[5] = 0;
+    EXPECT_NEAR(section.dot(freed.yield_surface * section), section.dot(exact.yield_surface * section), 1e-9) << angle;
+    const double t = angle * std::numbers::pi / 180, c2 = std::cos(t) * std::cos(t), s2 = 1 - c2;
+    const double nu_LT = m.nu_TL * m.E_L / m.E_T;
+    const double bar = 1 / (c2 * c2 / m.E_L + (1 / m.G_TL - 2 * nu_LT / m.E_L) * s2 * c2 + s2 * s2 / m.E_T);
+    const VoigtMatrix compliance_freed = freed.stiffness.inverse();
+    EXPECT_NEAR(1 / compliance_freed(0, 0), bar, 1e-9 * bar) << angle;
+  }
+  for (const double angle : {0.0, 90.0}) {  // aligned rows know no difference
+    EXPECT_EQ(in_strand_axes(m, angle).stiffness, in_strand_axes(m, angle, OffAxis::kUncoupled).stiffness);
+  }
+}
+
+TEST(Names, OfLawsAndOffAxisChoices) {
+  for (const Law law : {Law::kHill, Law::kCrushing}) EXPECT_EQ(law_from_name(name(law)), law);
+  for (const OffAxis choice : {OffAxis::kExact, OffAxis::kUncoupled}) {
+    EXPECT_EQ(off_axis_from_name(name(choice)), choice);
+  }
+  EXPECT_THROW(law_from_name("hills"), InputError);
+  EXPECT_THROW(off_axis_from_name("none"), InputError);
 }
 
 struct BadMaterial {
@@ -232,6 +307,42 @@ INSTANTIATE_TEST_SUITE_P(
                     [](Material& m) { m.Y_L = 2; },
                     {"not positive semi-definite", "Y_L = 2", "1/Y_L <= 1/Y_R + 1/Y_T"}},
         BadMaterial{"NegativeHardening", [](Material& m) { m.hardening_K = -1; }, {"hardening_K = -1"}},
+        BadMaterial{"CrushingYield",
+                    [](Material& m) {
+                      m.law = Law::kCrushing;
+                      m.crushing.S_RT = 0;
+                    },
+                    {"crushing_S_RT = 0", "positive"}},
+        BadMaterial{"CrushingPoisson",
+                    [](Material& m) {
+                      m.law = Law::kCrushing;
+                      m.crushing.c = 1.01;
+                    },
+                    {"not positive semi-definite", "crushing_c = 1.01", "-1 and 1"}},
+        BadMaterial{"CrushingHardening",
+                    [](Material& m) {
+                      m.law = Law::kCrushing;
+                      m.crushing.h2 = -0.5;
+                    },
+                    {"crushing_h2 = -0.5"}},
+        BadMaterial{"CrushingExponent",
+                    [](Material& m) {
+                      m.law = Law::kCrushing;
+                      m.crushing.exponent = 0.9;
+                    },
+                    {"crushing_m = 0.9", "at least 1"}},
+        BadMaterial{"CrushingStart",
+                    [](Material& m) {
+                      m.law = Law::kCrushing;
+                      m.crushing.start = 1;
+                    },
+                    {"crushing_start = 1", "less than 1"}},
+        BadMaterial{"CrushingCellWall",
+                    [](Material& m) {
+                      m.law = Law::kCrushing;
+                      m.density_kg_m3 = 1500;
+                    },
+                    {"density_kg_m3 = 1500", "nothing to crush", "1500"}},
         BadMaterial{
             "HardeningExponent", [](Material& m) { m.hardening_n = 0.5; }, {"hardening_n = 0.5", "at least 1"}}),
     [](const auto& tested) { return tested.param.name; });
@@ -252,7 +363,7 @@ TEST(Validate, RulesAreSharp) {
   hill.Y_L = 40;
   hill.Y_T = 1 / (1 / hill.Y_R + 1 / hill.Y_L);  // exactly on |1/Y_R - 1/Y_T| = 1/Y_L
   EXPECT_NO_THROW(validate(hill));
-  const VoigtMatrix P = in_strand_axes(hill, 0).hill;
+  const VoigtMatrix P = in_strand_axes(hill, 0).yield_surface;
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<VoigtMatrix>(P).eigenvalues()[0], -1e-15);
 }
 

@@ -45,7 +45,7 @@ Strand<Dim> strand(const wood::Material& material, double angle_deg, int row, co
   s.v.assign(count, Vec<Dim>::Zero());
   s.F.assign(count, Tensor<Dim>::Identity());
   s.stress.assign(count, Voigt::Zero());
-  s.plastic.assign(count, 0.0);
+  s.plastic.assign(count, s.material.crushing.start);
   return s;
 }
 
