@@ -113,6 +113,10 @@ void test_state(Journey& journey, const Panel<2>& panel, double compaction, Cons
   }
   auto state = to_json(compaction, result, seconds_since(begin));
   state["gap_sensitivity"] = gap_sensitivity(panel, journey.c.test, compaction, console);
+  if (!result.slips.empty()) {
+    fs::create_directories(folder.slip_file(compaction).parent_path());
+    report::slip_table(result).write(folder.slip_file(compaction));
+  }
   auto& states = folder.record(io::Step::kTest)["states"];
   states.push_back(state);
   report::moduli_table(moduli_of(states)).write(folder.file("moduli.csv"));

@@ -36,6 +36,7 @@ def results(folder):
     kept.update({p.name: p.read_bytes() for p in pathlib.Path(folder, "paraview").iterdir()})
     kept.update({p.name: p.read_bytes() for p in pathlib.Path(folder, "panels").iterdir()})
     kept.update({p.name: p.read_bytes() for p in pathlib.Path(folder, "frames").iterdir()})
+    kept.update({p.name: p.read_bytes() for p in pathlib.Path(folder, "glue_lines").iterdir()})
     return kept
 
 

@@ -50,6 +50,8 @@ def made_with_the_run_and_again():
     run = data_of("moved/report.html")["run"]
     for name in ("press.csv", "moduli.csv", "theory.csv", "morphology.csv", "histograms.csv"):
         check(run["tables"][name] == pathlib.Path("moved", name).read_text(encoding="utf-8"), f"the report holds {name} as it is")
+    slip = pathlib.Path("moved/glue_lines/slip_0.04.csv").read_text(encoding="utf-8")
+    check(run["tables"]["glue_lines/slip_0.04.csv"] == slip and ",0,1," in slip, "the report holds the slips of glue lines")
     frames = run["frames"]["frames"]
     check(len(frames) == 41, f"frames: {len(frames)}")
     step = 0.04 / 40

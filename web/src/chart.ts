@@ -140,7 +140,7 @@ export class Chart {
     const values = spec.series.flatMap(s => s.y).filter(Number.isFinite);
     const fromZero = Math.min(...values) > -0.02 * Math.max(...values) && Math.min(...values) < 0.25 * Math.max(...values);
     const named = spec.series.filter(s => s.name !== '');
-    const rows = named.length > 1 ? Math.ceil(named.reduce((sum, s) => sum + 44 + 6.6 * Math.min(s.name.length, 28), 0) /
+    const rows = named.length > 1 ? Math.ceil(named.reduce((sum, s) => sum + 40 + 6.2 * Math.min(s.name.length, 28), 0) /
                                               Math.max(200, this.chart.getWidth() - 16)) : 0;
     return {
       animation: false,
@@ -150,7 +150,7 @@ export class Chart {
       grid: {left: 64, right: 18, top: 14 + 21 * rows, bottom: 46, ...spec.grid},
       legend: rows === 0 ? {show: false} : {
         left: 0, top: 0, width: this.chart.getWidth() - 8, itemWidth: 22, itemHeight: 9, itemGap: narrow ? 10 : 14,
-        textStyle: {...text, color: ink}, inactiveColor: soft, data: named.map(s => s.name),
+        textStyle: {...text, color: ink}, inactiveColor: soft, data: named.map(s => ({name: s.name, itemStyle: {opacity: s.style === 'marked' ? 1 : 0}})),
         formatter: (label: string) => (label.length > 28 ? label.slice(0, 27) + '…' : label),
       },
       tooltip: {

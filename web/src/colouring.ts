@@ -36,12 +36,12 @@ function roundUp(value: number): number {
   return 10 * power;
 }
 
-// Round ends that leave out the extreme 2 % of all cells of all frames.
-function shownRange(film: Film, index: number, diverging: boolean): [number, number] {
+// Round ends that leave out the extreme 2 % of all cells of these frames.
+function shownRange(film: Film, frames: Frame[], index: number, diverging: boolean): [number, number] {
   const field = film.fields[index]!;
   const counts = new Float64Array(256);
   let total = 0;
-  for (const frame of film.frames) {
+  for (const frame of frames) {
     for (const byte of frame.fields[index]!) counts[byte]!++;
     total += film.cells;
   }
@@ -59,10 +59,11 @@ function shownRange(film: Film, index: number, diverging: boolean): [number, num
   return [Math.floor(low / step + 1e-9) * step, Math.max(Math.ceil(high / step - 1e-9), Math.floor(low / step) + 1) * step];
 }
 
-export function colouringsOf(film: Film): Colouring[] {
+// Colourings with ranges that suit these frames.
+export function colouringsOf(film: Film, frames = film.frames): Colouring[] {
   return film.fields.map((field, index) => {
     const look = looks[field.key] ?? {label: field.key, unit: '', digits: 2, map: viridis, diverging: false};
-    const [low, high] = shownRange(film, index, look.diverging);
+    const [low, high] = shownRange(film, frames, index, look.diverging);
     return {key: field.key, label: look.label, unit: look.unit, digits: look.digits, map: look.map, low, high};
   });
 }

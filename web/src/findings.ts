@@ -99,7 +99,7 @@ function warnings(run: Run): Finding[] {
     for (const text of state.warnings.filter(w => !w.includes('left out'))) {
       const words = text.replace(/[\d.]+/g, '#');
       const before = seen.get(words) ?? [];
-      const also = before.length > 0 ? ` (so at ${before.join(', ')})` : '';
+      const also = before.length > 0 ? ` (Likewise at ${before.join(', ')}.)` : '';
       tests.set(words, `At ${of(state.compaction)} compaction: ${text}${also}`);
       seen.set(words, [...before, of(state.compaction)]);
     }

@@ -20,7 +20,7 @@ export interface SectionOptions {
   measuredProfile?: (compaction: number) => {label: string; y_mm: number[]; density_kg_m3: number[]} | undefined;
 }
 
-const margin = {left: 46, right: 10, top: 14, bottom: 38};  // css pixels around the plot
+const margin = {left: 42, right: 10, top: 14, bottom: 38};  // css pixels around the plot
 const platen = 9;
 const secondsPerFrame = 0.12;
 const slices = 80;
@@ -49,7 +49,8 @@ export class SectionView {
   private readonly bar: HTMLElement;
   private readonly stage: HTMLElement;
   private readonly profile: Chart;
-  private readonly colourings: Colouring[];
+  private colourings: Colouring[];
+  private fitColours = false;  // to the frame, else to the film
   private cells: Canvas = {width: 0, height: 0, pixels: new Uint32Array(0), cells: new Int32Array(0)};
   private index: number;
   private colouring = 0;  // index of colourings, -1 by strand
@@ -93,7 +94,6 @@ export class SectionView {
     this.listen();
     new ResizeObserver(() => this.resize()).observe(this.stage);
     onThemeChange(() => this.redraw());
-    this.drawBar();
     this.reset();
   }
 
@@ -104,9 +104,13 @@ export class SectionView {
   private toolbar(): HTMLElement {
     const select = el('select', {change: () => this.colourBy(select.value)},
       ...this.colourings.map(c => el('option', {value: c.key}, c.label)), el('option', {value: byStrand}, 'Strand'));
+    const fit = el('input', {type: 'checkbox', change: () => {
+      this.fitColours = fit.checked;
+      if (!fit.checked) this.colourings = colouringsOf(this.film);
+      this.redraw();
+    }});
     const glue = el('input', {type: 'checkbox', change: () => {
       this.showGlue = glue.checked;
-      this.drawBar();
       this.redraw();
     }});
     this.stretch = 0;
@@ -117,6 +121,7 @@ export class SectionView {
         this.stretchChosen = true;
         this.resize();
       }),
+      el('label', {class: 'check', title: 'Colours span the values of this compaction, not of the whole pressing'}, fit, 'Fit colours'),
       el('label', {class: 'check'}, glue, 'Glue lines'),
       el('span', {class: 'tools'},
         button('−', 'Magnify less', () => this.magnify(1 / 1.5)), button('+', 'Magnify more', () => this.magnify(1.5)),
@@ -136,7 +141,6 @@ export class SectionView {
 
   colourBy(key: string): void {
     this.colouring = this.colourings.findIndex(c => c.key === key);
-    this.drawBar();
     this.redraw();
   }
 
@@ -208,7 +212,7 @@ export class SectionView {
   private resize(): void {
     if (this.width === 0) return;
     if (!this.stretchChosen) {
-      this.stretch = [4, 2].find(s => this.plotHeight(s) <= 380) ?? 1;
+      this.stretch = [4, 2].find(s => this.plotHeight(s) <= 340) ?? 1;
       const radio = this.element.querySelector<HTMLInputElement>(`.choice input[value="${this.stretch}"]`);
       if (radio) radio.checked = true;
     }
@@ -337,8 +341,8 @@ export class SectionView {
     const values = this.colourings.map((c, i) => {
       const field = this.film.fields[i]!;
       const byte = this.frame.fields[i]![cell]!;
-      const beyond = byte === 0 ? '≤ ' : byte === 255 ? '≥ ' : '';
-      return `${c.label.toLowerCase()} ${beyond}${valueOf(field, byte).toFixed(c.digits)}${c.unit === '°' ? '' : ' '}${c.unit}`.trim();
+      const beyond = byte === 255 ? '≥ ' : byte === 0 && field.low !== 0 ? '≤ ' : '';
+      return `${c.label.toLowerCase()} ${beyond}${valueOf(field, byte).toFixed(c.digits).replace('-', '−')}${c.unit === '°' ? '' : ' '}${c.unit}`.trim();
     });
     return [`Strand ${number + 1}: ${strand.kind}, row ${strand.row + 1}, laid at ${strand.angle_deg}°`, ...values].join(' · ');
   }
@@ -360,6 +364,7 @@ export class SectionView {
       this.canvas.width = this.raster.width = width;
       this.canvas.height = this.raster.height = height;
     }
+    if (this.fitColours) this.colourings = colouringsOf(this.film, [this.frame]);
     this.drawRaster(width, height, ratio);
     const context = this.canvas.getContext('2d')!;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -375,7 +380,7 @@ export class SectionView {
     context.restore();
     this.drawAxes(context);
     this.drawProfile();
-    if (this.showGlue) this.drawBar();
+    this.drawBar();
     this.say();
   }
 
@@ -516,6 +521,7 @@ export class SectionView {
       ],
       table: new Table(['compaction', 'y_mm', 'density_kg_m3'], rows),
       x: {min: 0, max: Math.ceil(highest / 200) * 200},
+      xLabel: this.width < 420 ? 'kg/m³' : 'density, kg/m³',
       y: {min: this.fromY(this.height - margin.bottom - platen), max: this.fromY(margin.top + platen), hidden: true},
     });
   }

@@ -219,8 +219,19 @@ async function colourings() {
   const before = await picture(page);
   await page.getByLabel('Glue lines').check();
   check(await picture(page) !== before, 'glue lines are drawn');
+  const bar = await page.locator('.colour-bar').textContent();
+  check(bar.includes('Slip of glue lines of 1/Dₜ 0.0105'), `the last state was tested: its glue lines tell their slip: ${bar}`);
+  await page.getByRole('slider', {name: 'Compaction'}).fill('10');
+  await settled(page);
+  check(!(await page.locator('.colour-bar').textContent()).includes('Slip'), 'a state between tests has no slip');
   await page.getByLabel('Glue lines').uncheck();
+  await select.selectOption('stress_through_MPa');
+  const all = await picture(page);
+  await page.getByLabel('Fit colours').check();
+  check(await picture(page) !== all, 'colours fitted to one state');
+  await page.getByLabel('Fit colours').uncheck();
   await select.selectOption(values[0]);
+  await page.getByRole('slider', {name: 'Compaction'}).fill('40');
 }
 
 async function pointerAndKeys() {

@@ -37,7 +37,7 @@ std::vector<std::string> results_of(Step step) {
             "checkpoint.h5", "checkpoint.previous.h5", "panels",         "frames",      "paraview",
             "pictures"};
   }
-  return {"moduli.csv", "theory.csv", "plots"};
+  return {"moduli.csv", "theory.csv", "plots", "glue_lines"};
 }
 
 bool is_temporary(const fs::path& file) {
@@ -174,6 +174,9 @@ fs::path RunFolder::paraview_file(double compaction) const {
 }
 fs::path RunFolder::frame_file(int index) const {
   return folder_ / "frames" / fmt::format("frame_{:02}.h5", index);
+}
+fs::path RunFolder::slip_file(double compaction) const {
+  return folder_ / "glue_lines" / fmt::format("slip_{}.csv", compaction);
 }
 fs::path RunFolder::picture_file(const std::string& what, double compaction) const {
   return folder_ / "pictures" / fmt::format("{}_{}.png", what, compaction);

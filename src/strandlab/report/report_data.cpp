@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr std::array kTables{"press.csv",      "moduli.csv",  "theory.csv", "morphology.csv",
-                             "histograms.csv", "profile.csv", "slip.csv"};
+constexpr std::array kTables{"press.csv",      "moduli.csv",     "theory.csv",
+                             "morphology.csv", "histograms.csv", "profile.csv"};
 
 std::optional<std::string> read_text(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -122,7 +122,11 @@ Json report_data(const fs::path& run_folder) {
            {"tables", Json::object()}, {"frames", pack_frames({}, {})}};
   if (finished(record, "mat")) run["mat"] = read_json(run_folder / "mat.json");
   if (finished(record, "press")) {
-    for (const auto* name : kTables) {
+    std::vector<std::string> names(kTables.begin(), kTables.end());
+    for (const double compaction : c.schedule.compactions) {
+      names.push_back(fmt::format("glue_lines/slip_{}.csv", compaction));
+    }
+    for (const auto& name : names) {
       if (auto text = read_text(run_folder / name)) run["tables"][name] = *text;
     }
     run["frames"] = pack_frames(read_frames(run_folder), c.test.curing);

@@ -26,4 +26,14 @@ io::CsvTable moduli_table(const std::vector<PanelModulus>& moduli) {
   return table;
 }
 
+io::CsvTable slip_table(const vtest::Result& result) {
+  io::CsvTable table({"compliance_t_mm_per_MPa", "strand_a", "strand_b", "x_mm", "y_mm", "slip_mm_per_strain"});
+  const auto rounded = [](double mm) { return std::round(1e4 * mm) / 1e4 + 0.0; };  // + 0: no -0
+  for (const auto& s : result.slips) {
+    table.add_row({result.slip_compliance_t_mm_per_MPa, static_cast<long long>(s.a), static_cast<long long>(s.b),
+                   rounded(s.position[0]), rounded(s.position[1]), rounded(s.slip_mm_per_strain)});
+  }
+  return table;
+}
+
 }  // namespace strandlab::report

@@ -99,6 +99,7 @@ struct Model {
   Connection connection;
   statics::Mesh mesh;
   Section section;
+  std::vector<glue::GluePoint<2>> points;  // of strands that are kept
   std::optional<statics::PanelStiffness> stiffness;
   double perfect = 0;  // MPa/mm
 };
@@ -140,6 +141,7 @@ Model make_model(const Panel<2>& panel, const Options& options, Result& result) 
         fmt::format("{} of {} elements were folded over, as dragged strand corners are, and were straightened.",
                     model.mesh.straightened, model.mesh.elements.size()));
   }
+  model.points = std::move(points);
   double stiffest = 0;
   for (const auto& c : model.mesh.stiffness) stiffest = std::max(stiffest, c.diagonal().maxCoeff());
   model.perfect = options.perfect_bond * stiffest / spacing;
@@ -152,6 +154,7 @@ struct Trial {
   statics::GlueStiffness glue;     // MPa/mm, that of a penalty where the bond is perfect
   bool perfect_t, perfect_n;       // such bonds open by nothing: their tractions are found besides the penalty
   statics::LowerMatrix stiffness;  // of wood and glue
+  double compliance_t = 0;         // mm/MPa, as asked for
 };
 
 // Displacements, and the tractions that perfect bonds carry in excess of their penalty springs.
@@ -246,6 +249,17 @@ Modulus tension(const Trial& trial, const Response& stretch) {
   modulus.modulus_MPa = 2 * energy(trial, stretch) * factor;
   modulus.reaction_modulus_MPa = right_resultant(s, forces(trial, stretch)).force * factor;
   return modulus;
+}
+
+// Slips of the stretch of 1 mm.
+std::vector<GlueSlip> slips_of(const Model& model, const Response& stretch) {
+  const auto jumps = model.stiffness->jumps(stretch.displacement);
+  std::vector<GlueSlip> slips;
+  for (std::size_t k = 0; k < model.points.size(); ++k) {
+    const auto& p = model.points[k];
+    slips.push_back({p.a.strand, p.b.strand, 0.5 * (p.a.position + p.b.position), -jumps[k][0] * model.section.length});
+  }
+  return slips;
 }
 
 // The stretch that takes the axial force off the rotation is added to it.
@@ -354,6 +368,11 @@ std::vector<Modulus> measure_kinds(const Trial& trial, const Options& options, s
     const auto supports = end_plane_supports(section, trial.stiffness);
     const auto r = respond(trial, supports, Vectors(given.size(), none), given, cholesky, result);
     found.push_back(tension(trial, r[0]));
+    if (wants(options, Kind::kTension) &&
+        (result.slips.empty() || trial.compliance_t > result.slip_compliance_t_mm_per_MPa)) {
+      result.slips = slips_of(trial.model, r[0]);
+      result.slip_compliance_t_mm_per_MPa = trial.compliance_t;
+    }
     if (r.size() > 1) found.push_back(end_rotation(trial, r[0], r[1]));
   }
   if (wants(options, Kind::kBendingEndCouple)) {
@@ -387,7 +406,7 @@ Result measure(const Panel<2>& panel, const Options& options) {
   const double normal = glue_stiffness("D_n", options.compliance_n_mm_per_MPa, model.perfect, result.warnings);
   for (const double compliance : options.compliance_t_mm_per_MPa) {
     const double tangential = glue_stiffness("D_t", compliance, model.perfect, result.warnings);
-    Trial trial{model, {tangential, normal}, tangential == model.perfect, normal == model.perfect, {}};
+    Trial trial{model, {tangential, normal}, tangential == model.perfect, normal == model.perfect, {}, compliance};
     {
       const Stopwatch watch(result.assemble_s);
       trial.stiffness = model.stiffness->with(trial.glue);

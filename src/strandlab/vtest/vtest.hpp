@@ -38,10 +38,20 @@ struct Modulus {
   std::optional<double> shear_free_modulus_MPa{};  // 3- and 4-point bending
 };
 
+// A glue point in the tension test: how far strand b has slid along strand a per unit of mean strain, positive along
+// the normal from a to b turned clockwise (with x where b lies on a).
+struct GlueSlip {
+  int a = 0, b = 0;  // strands, order in the panel
+  Vec<2> position;   // mm, in the middle of the glue line
+  double slip_mm_per_strain = 0;
+};
+
 struct Result {
   std::vector<Modulus> moduli;  // by kind within compliance
-  int floating_strands = 0;     // not connected to both loaded ends, dropped
-  double glued_fraction = 0;    // glued length over face length of facing rows
+  std::vector<GlueSlip> slips;  // in tension with the softest glue, in the order of glue::cure(); empty without tension
+  double slip_compliance_t_mm_per_MPa = 0;  // of that glue
+  int floating_strands = 0;                 // not connected to both loaded ends, dropped
+  double glued_fraction = 0;                // glued length over face length of facing rows
   int unknowns = 0;
   double assemble_s = 0, analyse_s = 0, factor_s = 0, solve_s = 0;  // wall time, all compliances together
   std::vector<std::string> warnings;                                // plain sentences

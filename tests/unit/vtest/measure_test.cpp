@@ -101,6 +101,29 @@ TEST(Measure, SaysWhenNothingConnectsTheEnds) {
   EXPECT_NE(message.find("connect the two ends"), std::string::npos);
 }
 
+// A lap joint whose glue is soft: the strands (500 N/mm each) hardly stretch beside a joint of D_t times overlap = 0.4
+// N/mm, so that it slides by the whole elongation of 20 mm per unit strain; the upper strand goes with x. The softest
+// glue is the one reported. A perfect bond does not slide.
+TEST(Measure, TellsHowFarGlueLinesSlide) {
+  Options options;
+  options.compliance_t_mm_per_MPa = {0, 10, 0.1};
+  const auto lap = panel_of({{0, 0, 12}, {1, 8, 20}});
+  const auto result = measure(lap, options);
+  EXPECT_EQ(result.slip_compliance_t_mm_per_MPa, 10);
+  ASSERT_GT(result.slips.size(), 10U);
+  for (const auto& s : result.slips) {
+    EXPECT_EQ(s.a, 0);
+    EXPECT_EQ(s.b, 1);
+    EXPECT_NEAR(s.position[1], 0.8, 1e-9);
+    EXPECT_TRUE(s.position[0] > 8 - 1e-9 && s.position[0] < 12 + 1e-9) << s.position[0];
+    EXPECT_NEAR(s.slip_mm_per_strain, 20, 0.1);
+  }
+  options.compliance_t_mm_per_MPa = {0};
+  for (const auto& s : measure(lap, options).slips) EXPECT_NEAR(s.slip_mm_per_strain, 0, 1e-3);
+  options.kinds = {Kind::kBendingEndRotation};
+  EXPECT_TRUE(measure(lap, options).slips.empty());
+}
+
 // A lap joint whose strands slide: the force of the joint is D_t times slip times overlap, here with the floor D_t =
 // 1e-3 MPa/mm in place of 1/D_t = 1e9. The strands are rigid by comparison.
 TEST(Measure, RaisesGlueThatIsTooSoftToTheFloorAndSaysSo) {
