@@ -105,7 +105,8 @@ export class Chart {
   private series(s: Series, index: number): object {
     const paint = s.ink ? colour('ink-soft') : s.colour ??
       (s.family ? family(s.family[1], isDark())[s.family[0]] : okabeIto[index % okabeIto.length]);
-    const references = this.spec.series.filter(other => other.style === 'dashed');
+    // References without a name continue the one before.
+    const references = this.spec.series.slice(0, index + 1).filter(other => other.style === 'dashed' && other.name !== '').length - 1;
     const style = s.style ?? 'line';
     return {
       type: 'line',
@@ -117,7 +118,7 @@ export class Chart {
       symbolSize: this.spec.item ? 3 : 7,
       lineStyle: {
         width: style === 'dashed' ? 1.5 : 2,
-        type: style === 'dashed' ? dashes[references.indexOf(s) % dashes.length] : 'solid',
+        type: style === 'dashed' ? dashes[Math.max(0, references) % dashes.length] : 'solid',
       },
       areaStyle: style === 'area' ? {opacity: 0.25} : undefined,
       itemStyle: {color: paint},

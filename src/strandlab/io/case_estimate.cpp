@@ -18,6 +18,7 @@ constexpr double kNsPerParticleStep = 80;         // one thread, mean over a pre
 constexpr double kSpeedUpPerThread = 0.7;         // of each further thread
 constexpr double kBytesPerParticle = 700;         // of a pressing, grid included
 constexpr double kStoredBytesPerParticle = 600;   // of one state: HDF5 and ParaView
+constexpr double kFrameBytes = 5e7;               // all frames of the pressing: 41 coarse panels of 8000 cells
 constexpr double kSolveSecondsPerElement = 4e-6;  // of a virtual test, per factorisation and element
 constexpr double kSolveExponent = 1.2;            // sparse Cholesky in two dimensions
 constexpr double kElementsAtReference = 1e5;
@@ -96,7 +97,7 @@ Estimate estimate(const Case& c, const Panel<2>& panel) {
   const auto states = static_cast<double>(c.schedule.compactions.size());
   const double speed_up = 1 + kSpeedUpPerThread * (thread_count(c) - 1);
   e.memory_bytes = memory_bytes(n);
-  e.disk_bytes = n * kStoredBytesPerParticle * (states + 2) + 1e7;
+  e.disk_bytes = n * kStoredBytesPerParticle * (states + 2) + kFrameBytes + 1e7;
   e.press_s = n * e.steps * kNsPerParticleStep * 1e-9 / speed_up;
   const double element_count = elements(c, panel);
   e.test_s = states * static_cast<double>(c.test.compliance_t_mm_per_MPa.size()) * element_count *

@@ -27,6 +27,7 @@ Strand<2> lumped(const Strand<2>& fine, double spacing_along_mm, int points_thro
   s.row = fine.row;
   s.angle_deg = fine.angle_deg;
   s.material = fine.material;
+  s.stiffness_factor = fine.stiffness_factor;
   const double length = fine.points[0] * fine.spacing[0], thickness = fine.points[1] * fine.spacing[1];
   s.points = {std::clamp(static_cast<int>(std::lround(length / spacing_along_mm)), 1, fine.points[0]),
               std::min(points_through, fine.points[1])};
