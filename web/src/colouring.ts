@@ -51,11 +51,12 @@ function shownRange(film: Film, frames: Frame[], index: number, diverging: boole
     return field.high;
   };
   const low = at(0.02), high = at(0.98);
+  const least = (8 * (field.high - field.low)) / 255;  // steps of a byte are not to be seen
   if (diverging) {
-    const limit = roundUp(Math.max(-low, high, 1e-9));
+    const limit = roundUp(Math.max(-low, high, least));
     return [-limit, limit];
   }
-  const step = roundUp((high - low || 1) / 8);
+  const step = roundUp(Math.max(high - low, least) / 8);
   return [Math.floor(low / step + 1e-9) * step, Math.max(Math.ceil(high / step - 1e-9), Math.floor(low / step) + 1) * step];
 }
 

@@ -225,7 +225,8 @@ async function colourings() {
   await settled(page);
   check(!(await page.locator('.colour-bar').textContent()).includes('Slip'), 'a state between tests has no slip');
   await page.getByLabel('Glue lines').uncheck();
-  await select.selectOption('stress_through_MPa');
+  await select.selectOption('density_kg_m3');
+  await page.getByRole('slider', {name: 'Compaction'}).fill('0');
   const all = await picture(page);
   await page.getByLabel('Fit colours').check();
   check(await picture(page) !== all, 'colours fitted to one state');
