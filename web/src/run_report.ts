@@ -12,6 +12,7 @@ import {toggleTheme} from './theme';
 
 const testNames: Record<string, string> = {
   tension: 'Tension', bending_end_rotation: 'Bending (end rotation)', bending_end_couple: 'Bending (end couple)',
+  bending_3_point: 'Bending (3 points)', bending_4_point: 'Bending (4 points)',
 };
 function nameOf(test: string): string {
   return testNames[test] ?? test;
