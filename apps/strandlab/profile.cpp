@@ -96,6 +96,7 @@ std::vector<profile::Mean> means_of(const std::vector<report::Replicate>& replic
   std::vector<profile::Mean> means;
   for (std::size_t i = 0; i < replicates.front().states.size(); ++i) {
     std::vector<profile::Profile> states;
+    states.reserve(replicates.size());
     for (const auto& replicate : replicates) states.push_back(replicate.states[i]);
     means.push_back(profile::mean(states));
   }
@@ -176,6 +177,7 @@ void write(const Comparison& c, const std::vector<profile::Mean>& means, const f
 
 void profile_runs(const Arguments& a) {
   std::vector<Run> runs;
+  runs.reserve(a.runs.size());
   for (const auto& folder : a.runs) runs.push_back(open_run(folder));
   refuse_other_cases(runs);
   const fs::path folder =

@@ -111,6 +111,7 @@ Mean mean(const std::vector<Profile>& replicates) {
   }
   for (std::size_t k = 0; k < first.density_kg_m3.size(); ++k) {
     std::vector<double> values;
+    values.reserve(replicates.size());
     for (const auto& profile : replicates) values.push_back(profile.density_kg_m3[k]);
     result.density_kg_m3.push_back(statistics::summarise(values));
   }

@@ -103,7 +103,7 @@ std::pair<std::string, std::string> unit_and_label(Dimension dimension, const st
       const std::string part = rest.substr(from, length);
       if (!is_edge(from) || !is_edge(from + length) || !unit_factor(dimension, part)) continue;
       const std::string before = words(rest.substr(0, from)), after = words(rest.substr(past));
-      return {part, before.empty() || after.empty() ? before + after : before + " " + after};
+      return {part, before.empty() || after.empty() ? before + after : fmt::format("{} {}", before, after)};
     }
   }
   return {"", words(rest)};
