@@ -129,8 +129,8 @@ template <class Law, class Ops, int N, class T>
 //
 // With mu = d lambda / q the returned modes are z_i = z_i^tr / (1 + mu lambda_i), and the one unknown mu solves
 //   r(mu) = q(mu) - J radius(mu) = 0.
-// r > 0 at mu = 0; q falls to 0 or, when crushing, the radius passes all bounds: Newton's method within a bracket that
-// bisection keeps shrinking always converges. For Hill's law r is monotone.
+// r > 0 at mu = 0; q falls to 0 or, when crushing, the radius passes all bounds: Newton's method (on 1/q, which is
+// nearly linear in mu) within a bracket that bisection keeps shrinking always converges. For Hill's law r is monotone.
 template <class Law, class Ops, int N>
 [[gnu::always_inline]] inline typename Ops::Value return_map(const YieldModes<N>& m, typename Ops::Value (&tau)[N],
                                                              const typename Ops::Value& J, typename Ops::Value& history,
@@ -156,12 +156,13 @@ template <class Law, class Ops, int N>
   Hardened<T> hard = Law::template first<Ops, N, T>(m, flow, history, radius, J);
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     const T r = flow.q - J * hard.radius;
-    const T dr = flow.dq - J * hard.slope;
     const auto converged = Ops::absolute(r) <= 1e-12 * flow.q;
     if (!Ops::any(yields & !converged)) break;
     lo = Ops::select(r > 0.0, flow.mu, lo);
     hi = Ops::select(r > 0.0, hi, flow.mu);
-    T next = flow.mu - r / dr;
+    // Newton's method on 1/q - 1/(J radius) = 0.
+    T next =
+        flow.mu + r * flow.q * hard.radius / (hard.slope * flow.q * flow.q - flow.dq * J * hard.radius * hard.radius);
     const T middle = Ops::select(hi < 1e299, 0.5 * (lo + hi), 2.0 * flow.mu + 1e-6);
     next = Ops::select((next > lo) & (next < hi), next, middle);
     if (iteration > kNewtonAlone && iteration % 2 == 1) next = middle;
