@@ -17,6 +17,7 @@ struct Face {
   std::vector<Vec<2>> corner;  // mm
   std::vector<Vec<2>> normal;  // unit, outward
   std::vector<double> arc;     // mm, deformed length up to a corner
+  double sense = 1;            // -1 for a bottom face
 
   int segments() const { return static_cast<int>(corner.size()) - 1; }
   int segment_of(double s) const { return std::clamp(static_cast<int>(s), 0, segments() - 1); }
@@ -43,6 +44,7 @@ Face make_face(const Strand<2>& strand, Side side) {
   const int n = strand.points[0] + 1;
   const auto begin = lattice.begin() + (side == Side::kTop ? static_cast<std::ptrdiff_t>(n) * strand.points[1] : 0);
   Face face;
+  face.sense = side == Side::kTop ? 1 : -1;
   face.corner.assign(begin, begin + n);
   face.normal.assign(face.corner.size(), Vec<2>::Zero());
   face.arc.assign(face.corner.size(), 0.0);
@@ -57,19 +59,29 @@ Face make_face(const Strand<2>& strand, Side side) {
   return face;
 }
 
+// Another face that may lie between the two of a pair.
+struct Rival {
+  const Face* face;
+  double lowest;  // mm, gap to the pair's face from which on it faces it
+  int strand;
+};
+
 // The two faces that may be glued and how far apart: gap within (lowest, highest).
 struct Pair {
   const Face& a;           // a top face
   const Face& b;           // a bottom face above it
   double lowest, highest;  // mm
+  int strand_a, strand_b;
+  const std::vector<Rival>& over_a;   // bottom faces near a, that of b among them
+  const std::vector<Rival>& under_b;  // top faces near b, that of a among them
 };
 
 // Where the normal of face a at s meets face b, as a place on b; nothing if it passes b's ends.
 std::optional<double> meet(const Face& a, double s, const Face& b) {
   const Vec<2> p = a.position(s), n = a.normal_at(s);
   const auto side = [&](int corner) {
-    return cross(n, b.corner[corner] - p);
-  };  // falls along b, which lies to the right of n
+    return a.sense * cross(n, b.corner[corner] - p);
+  };  // falls along b, which lies to the right of a top face's n and to the left of a bottom face's
   int low = 0, high = b.segments();
   if (side(low) < 0 || side(high) > 0) return std::nullopt;
   while (high - low > 1) {
@@ -80,15 +92,37 @@ std::optional<double> meet(const Face& a, double s, const Face& b) {
   return low + (before > after ? std::clamp(before / (before - after), 0.0, 1.0) : 0.5);
 }
 
-// The place on b that s on a is glued to, if it is.
-std::optional<double> glued(const Pair& pair, double s) {
-  const auto other = meet(pair.a, s, pair.b);
-  if (!other) return std::nullopt;
-  const Vec<2> na = pair.a.normal_at(s), nb = pair.b.normal_at(*other);
+// What face b offers to place s on a: where, and how far off along the normal.
+struct Facing {
+  double place;
+  double gap;  // mm
+};
+
+std::optional<Facing> facing(const Face& a, double s, const Face& b) {
+  const auto place = meet(a, s, b);
+  if (!place) return std::nullopt;
+  const Vec<2> na = a.normal_at(s), nb = b.normal_at(*place);
   if (na.dot(nb) > -0.5) return std::nullopt;  // not face to face
-  const double gap = (pair.b.position(*other) - pair.a.position(s)).dot((na - nb).normalized());
-  if (gap < pair.lowest || gap > pair.highest) return std::nullopt;
-  return other;
+  return Facing{*place, (b.position(*place) - a.position(s)).dot((na - nb).normalized())};
+}
+
+// Whether a rival other than `strand` faces the place nearer than `gap`; of two as near, the first one does.
+bool occluded(const Face& face, double s, const std::vector<Rival>& rivals, int strand, double gap) {
+  return std::any_of(rivals.begin(), rivals.end(), [&](const Rival& rival) {
+    if (rival.strand == strand) return false;
+    const auto other = facing(face, s, *rival.face);
+    if (!other || other->gap < rival.lowest) return false;
+    return other->gap < gap || (other->gap == gap && rival.strand < strand);
+  });
+}
+
+// The place on b that s on a is glued to, if it is: nothing of another strand lies between the two.
+std::optional<double> glued(const Pair& pair, double s) {
+  const auto other = facing(pair.a, s, pair.b);
+  if (!other || other->gap < pair.lowest || other->gap > pair.highest) return std::nullopt;
+  if (occluded(pair.a, s, pair.over_a, pair.strand_b, other->gap)) return std::nullopt;
+  if (occluded(pair.b, other->place, pair.under_b, pair.strand_a, other->gap)) return std::nullopt;
+  return other->place;
 }
 
 // Last place from `inside` (glued) towards `outside` (not glued) that is glued.
@@ -167,6 +201,27 @@ bool near(const Box& a, const Box& b, double distance) {
   return ((a.low - b.high).array() < distance).all() && ((b.low - a.high).array() < distance).all();
 }
 
+struct Faces {
+  std::vector<Face> tops, bottoms;  // by strand
+  std::vector<Box> top_boxes, bottom_boxes;
+};
+
+Faces make_faces(const Panel<2>& panel) {
+  Faces faces;
+  for (const auto& strand : panel.strands) {
+    faces.tops.push_back(make_face(strand, Side::kTop));
+    faces.bottoms.push_back(make_face(strand, Side::kBottom));
+    faces.top_boxes.push_back(bounding_box(faces.tops.back()));
+    faces.bottom_boxes.push_back(bounding_box(faces.bottoms.back()));
+  }
+  return faces;
+}
+
+// How far two strands in contact may overlap.
+double overlap_in_contact(const Strand<2>& a, const Strand<2>& b) {
+  return 0.5 * std::min(formed_thickness(a), formed_thickness(b));
+}
+
 void check(const CuringOptions& options) {
   if (!(options.max_gap_mm > 0) || !std::isfinite(options.max_gap_mm)) {
     throw InputError(fmt::format("curing gap of {} mm: it must be positive", options.max_gap_mm));
@@ -182,24 +237,24 @@ void check(const CuringOptions& options) {
 
 std::vector<GluePoint<2>> cure(const Panel<2>& panel, const CuringOptions& options) {
   check(options);
-  std::vector<Face> tops, bottoms;
-  for (const auto& strand : panel.strands) {
-    tops.push_back(make_face(strand, Side::kTop));
-    bottoms.push_back(make_face(strand, Side::kBottom));
+  const auto faces = make_faces(panel);
+  const int strands = static_cast<int>(panel.strands.size());
+  std::vector<std::vector<Rival>> over(panel.strands.size()), under(panel.strands.size());
+  for (int a = 0; a < strands; ++a) {
+    for (int b = 0; b < strands; ++b) {
+      const double overlap = overlap_in_contact(panel.strands[a], panel.strands[b]);
+      const bool above = panel.strands[b].row > panel.strands[a].row;
+      if (!above || !near(faces.top_boxes[a], faces.bottom_boxes[b], std::max(options.max_gap_mm, overlap))) continue;
+      over[a].push_back({&faces.bottoms[b], -overlap, b});
+      under[b].push_back({&faces.tops[a], -overlap, a});
+    }
   }
-  std::vector<Box> boxes;
-  boxes.reserve(bottoms.size());
-  for (const auto& bottom : bottoms) boxes.push_back(bounding_box(bottom));
-
   std::vector<GluePoint<2>> points;
-  for (int a = 0; a < static_cast<int>(tops.size()); ++a) {
+  for (int a = 0; a < strands; ++a) {
     const auto& lower = panel.strands[a];
-    const Box box = bounding_box(tops[a]);
-    for (int b = 0; b < static_cast<int>(bottoms.size()); ++b) {
+    for (const auto& [face, lowest, b] : over[a]) {
       const auto& upper = panel.strands[b];
-      const double overlap = 0.5 * std::min(formed_thickness(lower), formed_thickness(upper));
-      if (upper.row <= lower.row || !near(box, boxes[b], std::max(options.max_gap_mm, overlap))) continue;
-      const Pair pair{tops[a], bottoms[b], -overlap, options.max_gap_mm};
+      const Pair pair{faces.tops[a], *face, lowest, options.max_gap_mm, a, b, over[a], under[b]};
       const double spacing = options.point_spacing_mm > 0 ? options.point_spacing_mm : lower.spacing[0];
       for (const auto& [first, last] : contact_stretches(pair)) {
         const double on_b = std::abs(*glued(pair, last) - *glued(pair, first)) * upper.spacing[0];

@@ -35,8 +35,9 @@ struct CuringOptions {
   double point_spacing_mm = 0;  // along the strand as formed, between glue points; 0: as the material points
 };
 
-// Glue points of a pressed panel. A face point is glued to the facing strand where its projection along its face's
-// normal falls on that face within max_gap_mm. A stretch of contact ends where a strand ends or where the gap opens;
+// Glue points of a pressed panel. A face point is glued to the nearest facing strand, where its projection along its
+// face's normal falls on that strand's face within max_gap_mm and nothing of another strand lies between: never through
+// a strand, and no face point twice. A stretch of contact ends where a strand ends or where the gap opens;
 // its points divide it evenly, both ends included, so that glue lines change continuously with the strands. One
 // constraint per point, no more points than face corners, and normals interpolated from the corners' mean normals: a
 // perfect bond does not lock. Strand ends do not bond. Deterministic order: by strand (of its top face), then by facing

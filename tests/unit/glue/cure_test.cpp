@@ -117,6 +117,29 @@ TEST(Cure, BondsFacesOnly) {
   EXPECT_GT(across, 3.9);
 }
 
+// Glue reaches the nearest strand only, however far it may reach: three rows of 0.8 mm with a curing gap of 1 mm have
+// two glue lines of 20 mm, none through the middle row. Where that has a gap of 4 mm the outer rows are glued, once.
+TEST(Cure, NeverGluesThroughAStrand) {
+  CuringOptions wide;
+  wide.max_gap_mm = 1;
+  EXPECT_NEAR(glued_length(cure(panel_of({{0, 0, 20}, {1, 0, 20}, {2, 0, 20}}), wide)), 40, 1e-9);
+  const auto points = cure(panel_of({{0, 0, 20}, {1, 0, 8}, {1, 12, 20}, {2, 0, 20}}), wide);
+  double across = 0;
+  for (const auto& p : points) across += p.a.strand == 0 && p.b.strand == 3 ? p.area : 0;
+  EXPECT_NEAR(across, 4, 1e-6);
+  EXPECT_NEAR(glued_length(points), 16 + 4 + 16, 1e-6);
+}
+
+// As pressing leaves them: the middle row overlaps both neighbours by a quarter of its thickness.
+TEST(Cure, NeverGluesThroughAStrandThatOverlaps) {
+  auto panel = panel_of({{0, 0, 20}, {1, 0, 20}, {2, 0, 20}});
+  raise(panel.strands[0], 0.2);
+  raise(panel.strands[2], -0.2);
+  CuringOptions wide;
+  wide.max_gap_mm = 1;
+  EXPECT_NEAR(glued_length(cure(panel, wide)), 40, 1e-9);
+}
+
 // On y = A sin(2 pi x/w) the normal is that of the curve and the areas sum up to its length.
 TEST(Cure, FollowsAnUndulatedLine) {
   auto panel = panel_of({{0, 0, 20}, {1, 0, 20}});
