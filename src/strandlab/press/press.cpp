@@ -70,6 +70,9 @@ class Press {
     double last_checkpoint = start, last_progress = start;
     long long checked_steps = 0;
     const long long first_step = engine_->state().step;
+    good_step_ = first_step;
+    good_compaction_ = compaction();
+    last_good_ = sink_.checkpoint && first_step == 0 ? std::optional(checkpoint()) : std::nullopt;
     keep_frames();
     keep_snapshots();
     try {
@@ -77,10 +80,11 @@ class Press {
         advance();
         keep_frames();
         keep_snapshots();
+        keep_good();
         if (++checked_steps % 32 != 0) continue;
         const double now = wall_clock();
         if (sink_.checkpoint && now - last_checkpoint > sink_.checkpoint_interval_s) {
-          sink_.checkpoint(checkpoint());
+          save();
           last_checkpoint = now;
         }
         if (sink_.progress && now - last_progress > 0.25) {
@@ -89,7 +93,7 @@ class Press {
         }
       }
     } catch (const RunError&) {
-      if (sink_.checkpoint && last_good_) sink_.checkpoint(*last_good_);
+      if (sink_.checkpoint && last_good_) sink_.checkpoint(*last_good_);  // newer than any that was saved
       throw;
     }
     Outcome<Dim> outcome;
@@ -177,13 +181,27 @@ class Press {
     }
     state_.records.push_back(r);
     state_.pending = {};
-    keep_good();
   }
 
-  // The state to fall back on when a later step fails.
+  // The state to fall back on when a later step fails: every hundredth of the run, but not so often that the copies
+  // cost time, and at least every few hundred steps, as the smooth start and slow runs need many.
   void keep_good() {
-    if (!sink_.checkpoint || state_.records.size() % 10 != 0) return;
+    constexpr long long kFewestSteps = 100, kMostSteps = 500;
+    if (!sink_.checkpoint) return;
+    const long long steps = engine_->state().step - good_step_;
+    const bool far = compaction() - good_compaction_ >= 0.01 * schedule_.compactions.back();
+    if (steps < kFewestSteps || (!far && steps < kMostSteps)) return;
     last_good_ = checkpoint();
+    good_step_ = engine_->state().step;
+    good_compaction_ = compaction();
+  }
+
+  // What was saved needs no copy to fall back on.
+  void save() {
+    sink_.checkpoint(checkpoint());
+    last_good_.reset();
+    good_step_ = engine_->state().step;
+    good_compaction_ = compaction();
   }
 
   double frame_compaction(int index) const {
@@ -206,7 +224,7 @@ class Press {
       engine_->write(state_.panel);
       const int index = state_.snapshots_done++;
       if (sink_.snapshot) sink_.snapshot(state_.panel, index);
-      if (sink_.checkpoint) sink_.checkpoint(checkpoint());
+      if (sink_.checkpoint) save();
     }
   }
 
@@ -253,7 +271,9 @@ class Press {
   Sink<Dim> sink_;
   Checkpoint<Dim> state_;
   std::optional<mpm::Engine<Dim>> engine_;
-  std::optional<Checkpoint<Dim>> last_good_;
+  std::optional<Checkpoint<Dim>> last_good_;  // newer than what was saved
+  long long good_step_ = 0;                   // of the newest state that was saved or kept
+  double good_compaction_ = 0;
   double ramp_s_ = 0, transit_s_ = 0;
   int next_frame_ = 0;
 };

@@ -150,29 +150,58 @@ TEST(Press, WarnsOfTooFastPressing) {
   EXPECT_NE(warnings.front().find("press.speed_m_s"), std::string::npos) << warnings.front();
 }
 
-// When a step fails, the last good state is handed out before the error leaves. Here the mat slides out of its window
-// sideways half-way through the run: free sides, smooth platens, 100 m/s along the panel.
-TEST(Press, HandsOutTheLastGoodStateWhenAStepFails) {
+// States handed out by a pressing that fails: the mat slides out of its window sideways, at `speed_mm_s` along the panel
+// between free sides and smooth platens.
+std::vector<press::Checkpoint<2>> states_of_failing_press(double speed_mm_s, const press::Schedule& schedule,
+                                                          double checkpoint_interval_s) {
   auto panel = rows(2, 2 * kRow);
-  for (auto& s : panel.strands) s.v.assign(s.size(), Vec<2>(1e5, 0));
+  for (auto& s : panel.strands) s.v.assign(s.size(), Vec<2>(speed_mm_s, 0));
   mpm::Options smooth;
   smooth.friction = smooth.platen_friction = 0;
-  const auto setup = press::setup(panel, {}, mpm::Side::kFree, smooth);
   std::vector<press::Checkpoint<2>> states;
   press::Sink<2> sink;
-  sink.checkpoint_interval_s = 1e9;
+  sink.checkpoint_interval_s = checkpoint_interval_s;
   sink.checkpoint = [&](const press::Checkpoint<2>& c) { states.push_back(c); };
   try {
-    press::press<2>(panel, schedule_to({0, 0.3}), setup, sink);
-    FAIL() << "the mat stayed in the window";
+    press::press<2>(panel, schedule, press::setup(panel, {}, mpm::Side::kFree, smooth), sink);
+    ADD_FAILURE() << "the mat stayed in the window";
   } catch (const RunError& e) {
     EXPECT_NE(std::string(e.what()).find("left the grid"), std::string::npos) << e.what();
     EXPECT_NE(std::string(e.what()).find("strand in row"), std::string::npos) << e.what();
   }
+  return states;
+}
+
+// When a step fails, the newest good state is handed out before the error leaves. Here half-way through the run.
+TEST(Press, HandsOutTheLastGoodStateWhenAStepFails) {
+  const auto states = states_of_failing_press(1e5, schedule_to({0, 0.3}), 1e9);
   ASSERT_EQ(states.size(), 2u);  // at the snapshot of C = 0, and the last good one
   EXPECT_GT(states.back().panel.compaction(), 0.01);
   EXPECT_GT(states.back().engine.step, 0);
   EXPECT_GT(states.back().records.size(), 9u);
+}
+
+// Whatever the interval of records, and with no snapshot before the failure.
+TEST(Press, HandsOutTheLastGoodStateWithFewRecords) {
+  auto schedule = schedule_to({0.3});
+  schedule.record_interval_compaction = 0.2;
+  const auto states = states_of_failing_press(1e5, schedule, 1e9);
+  ASSERT_EQ(states.size(), 1u);
+  EXPECT_GT(states.back().panel.compaction(), 0.01);
+}
+
+// A failure in the first steps leaves the state at the start.
+TEST(Press, HandsOutAStateWhenItFailsAtOnce) {
+  const auto states = states_of_failing_press(1e7, schedule_to({0.3}), 1e9);
+  ASSERT_EQ(states.size(), 1u);
+  EXPECT_LT(states.back().panel.compaction(), 0.01);
+}
+
+// A state handed out at the failure never replaces a newer one: here they are handed out every 32 steps.
+TEST(Press, HandsOutNoOlderStateThanTheNewest) {
+  const auto states = states_of_failing_press(1e5, schedule_to({0, 0.3}), 0);
+  ASSERT_GT(states.size(), 3u);
+  for (std::size_t i = 1; i < states.size(); ++i) EXPECT_GT(states[i].engine.step, states[i - 1].engine.step);
 }
 
 TEST(Record, BalanceIsWorkMinusAllTerms) {
