@@ -148,6 +148,7 @@ RunFolder::RunFolder(fs::path folder, const Case& c, Step first, bool force, dou
   const bool exists = fs::exists(file("run.json"));
   if (exists) record_ = read_record(file("run.json"));
   if (exists && !force) refuse_other_case(c);
+  if (first == Step::kTest) refuse_unpressed(exists, c);
   make_folder(folder_);
   lock_ = lock_folder(folder_);
   if (exists && force) {
@@ -223,6 +224,21 @@ void RunFolder::refuse_other_case(const Case& c) const {
   throw InputError(
       fmt::format("{}: this run folder holds the results of another case ({}); choose another folder with -o, or "
                   "--force to replace what differs",
+                  folder_.string(), differences(recorded, here)));
+}
+
+// A command that only tests cannot press: it must find the panels of this case, and --force must not cost them.
+void RunFolder::refuse_unpressed(bool exists, const Case& c) const {
+  if (!exists || !finished(Step::kPress)) {
+    throw InputError(
+        fmt::format("{}: holds no pressed panel yet: strandlab press (or run) comes first", folder_.string()));
+  }
+  const auto recorded = record_["case"].get<std::vector<std::string>>();
+  const auto here = all_lines(c);
+  if (recorded == here || first_changed(recorded, c) == Step::kTest) return;
+  throw InputError(
+      fmt::format("{}: holds the pressed panels of another case ({}), which strandlab test cannot press; strandlab run "
+                  "--force replaces them, or choose another folder with -o",
                   folder_.string(), differences(recorded, here)));
 }
 

@@ -73,11 +73,33 @@ TEST(RunFolder, ForceStartsAgainFromTheFirstStepThatDiffers) {
     EXPECT_FALSE(std::filesystem::exists(run.file("theory.csv")));
     EXPECT_TRUE(std::filesystem::exists(run.file("panels/panel_0.h5")));
   }
-  const RunFolder run(folder / "run", with("press.speed_m_s=8"), Step::kTest, true, kSmall);
-  EXPECT_TRUE(run.finished(Step::kMat));
+  const RunFolder run(folder / "run", with("press.speed_m_s=8"), Step::kMat, true, kSmall);
+  EXPECT_FALSE(run.finished(Step::kTest));
   EXPECT_FALSE(run.finished(Step::kPress));
   EXPECT_FALSE(std::filesystem::exists(run.file("panels")));
   EXPECT_TRUE(std::filesystem::exists(run.file("notes.txt")));  // the user's own files stay
+}
+
+// The test alone cannot press again: it refuses, and the panels stay as they are.
+TEST(RunFolder, ForceOfATestNeverCostsThePanels) {
+  const TemporaryFolder folder;
+  make_finished(folder / "run", Case());
+  const auto before = test::contents(folder / "run/run.json");
+  const auto message = message_of<InputError>(
+      [&] { RunFolder(folder / "run", with("press.speed_m_s=8"), Step::kTest, true, kSmall); });
+  EXPECT_NE(message.find("press.speed_m_s = 16 there, 8 here"), std::string::npos) << message;
+  EXPECT_EQ(test::contents(folder / "run/run.json"), before);
+  EXPECT_EQ(test::contents(folder / "run/panels/panel_0.h5"), "x");
+}
+
+TEST(RunFolder, ATestNeedsPressedPanels) {
+  const TemporaryFolder folder;
+  for (const bool force : {false, true}) {
+    const auto message =
+        message_of<InputError>([&] { RunFolder(folder / "new", Case(), Step::kTest, force, kSmall); });
+    EXPECT_NE(message.find("no pressed panel"), std::string::npos) << message;
+    EXPECT_EQ(folder.files(), 0U);
+  }
 }
 
 TEST(RunFolder, ForceOnTheSameCaseStartsAgainAtTheCommandsStep) {
