@@ -10,6 +10,7 @@
 #include "duration.hpp"
 #include "strandlab/io/case_estimate.hpp"
 #include "strandlab/io/case_write.hpp"
+#include "strandlab/vtest/vtest.hpp"
 
 namespace strandlab::app {
 namespace {
@@ -18,7 +19,9 @@ namespace {
 void check(const CaseArguments& arguments) {
   const auto c = arguments.read();
   const auto mat = io::make_mat(c);
-  const auto e = io::estimate(c, io::make_panel(c, mat));
+  const auto panel = io::make_panel(c, mat);
+  vtest::check(panel, c.test);
+  const auto e = io::estimate(c, panel);
   fmt::print("{}\n", io::resolved_text(c));
   fmt::print("# mat: {} rows, {} strands, {:g} x {:g} mm\n", mat.layers.size(), e.strands, mat.length_mm,
              mat.thickness_mm());

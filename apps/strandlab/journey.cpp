@@ -16,6 +16,7 @@
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/version.hpp"
 #include "strandlab/io/case_estimate.hpp"
+#include "strandlab/vtest/vtest.hpp"
 
 namespace strandlab::app {
 namespace {
@@ -49,6 +50,7 @@ Journey start(const CaseArguments& arguments, io::Step first) {
   auto c = arguments.read();
   auto mat = io::make_mat(c);
   auto panel = io::make_panel(c, mat);
+  vtest::check(panel, c.test);
   const double disk_bytes = io::estimate(c, panel).disk_bytes;
   io::RunFolder folder(arguments.run_folder(c), c, first, arguments.force, disk_bytes);
   folder.record()["strandlab"] = version();

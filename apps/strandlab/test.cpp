@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <stdexcept>
 
 #include "commands.hpp"
 #include "journey.hpp"
@@ -81,7 +82,7 @@ void write_plots(const Journey& journey, const std::vector<report::PanelModulus>
 }
 
 // Which faces are glued is a choice of the case (glue.max_gap_mm): how much the moduli hang on it, with the softest
-// glue. Null when half the gap connects nothing.
+// glue. Null when the panel cannot be tested with half or twice the gap, say because half the gap connects nothing.
 Json gap_sensitivity(const Panel<2>& panel, vtest::Options options, double compaction, Console& console) {
   auto& compliances = options.compliance_t_mm_per_MPa;
   compliances = {*std::max_element(compliances.begin(), compliances.end())};
@@ -92,17 +93,34 @@ Json gap_sensitivity(const Panel<2>& panel, vtest::Options options, double compa
         "test: compaction {}: glue.max_gap_mm = {} changes moduli by at most {:+.1f} % (1/D_t = {}), {} by {:+.1f} %",
         compaction, gap / 2, 100 * s.halved, compliances[0], gap * 2, 100 * s.doubled));
     return {{"compliance_t_mm_per_MPa", compliances[0]}, {"gap_halved", s.halved}, {"gap_doubled", s.doubled}};
-  } catch (const InputError& error) {
-    console.warn(fmt::format("compaction {}: with glue.max_gap_mm = {} the panel cannot be tested: {}", compaction,
-                             gap / 2, error.what()));
+  } catch (const std::runtime_error& error) {  // InputError or RunError
+    console.warn(fmt::format("compaction {}: with glue.max_gap_mm = {} or {} the panel cannot be tested: {}",
+                             compaction, gap / 2, gap * 2, error.what()));
     return nullptr;
   }
 }
 
-void test_state(Journey& journey, const Panel<2>& panel, double compaction, Console& console) {
-  auto& folder = journey.folder;
+// A state that cannot be tested, say because nothing connects its ends, has no moduli; the others still have.
+Json not_testable(double compaction, const std::string& reason, bool failed, double wall_s, Console& console) {
+  vtest::Result result;
+  result.warnings.push_back("This panel cannot be tested: " + reason);
+  console.warn(fmt::format("compaction {}: this panel cannot be tested: {}", compaction, reason));
+  auto state = to_json(compaction, result, wall_s);
+  state["not_testable"] = reason;
+  state["failed"] = failed;
+  return state;
+}
+
+Json measure_state(const Journey& journey, const Panel<2>& panel, double compaction, Console& console) {
   const auto begin = std::chrono::steady_clock::now();
-  const auto result = vtest::measure(panel, journey.c.test);
+  vtest::Result result;
+  try {
+    result = vtest::measure(panel, journey.c.test);
+  } catch (const InputError& error) {
+    return not_testable(compaction, error.what(), false, seconds_since(begin), console);
+  } catch (const RunError& error) {
+    return not_testable(compaction, error.what(), true, seconds_since(begin), console);
+  }
   for (const auto& warning : result.warnings) console.warn(fmt::format("compaction {}: {}", compaction, warning));
   for (std::size_t i = 0; i < std::min(result.moduli.size(), journey.c.test.kinds.size()); ++i) {
     const auto& m = result.moduli[i];
@@ -114,9 +132,26 @@ void test_state(Journey& journey, const Panel<2>& panel, double compaction, Cons
   auto state = to_json(compaction, result, seconds_since(begin));
   state["gap_sensitivity"] = gap_sensitivity(panel, journey.c.test, compaction, console);
   if (!result.slips.empty()) {
-    fs::create_directories(folder.slip_file(compaction).parent_path());
-    report::slip_table(result).write(folder.slip_file(compaction));
+    fs::create_directories(journey.folder.slip_file(compaction).parent_path());
+    report::slip_table(result).write(journey.folder.slip_file(compaction));
   }
+  return state;
+}
+
+// One panel without moduli is a result; that none has any is an error.
+void refuse_if_none_is_testable(const Json& states) {
+  const bool any = std::any_of(states.begin(), states.end(), [](const Json& s) { return !s.contains("not_testable"); });
+  if (any || states.empty()) return;
+  const auto& last = states.back();
+  const auto message = fmt::format("no panel can be tested; at compaction {}: {}", last.at("compaction").get<double>(),
+                                   last.at("not_testable").get<std::string>());
+  if (last.at("failed").get<bool>()) throw RunError(message);
+  throw InputError(message);
+}
+
+void test_state(Journey& journey, const Panel<2>& panel, double compaction, Console& console) {
+  auto& folder = journey.folder;
+  const auto state = measure_state(journey, panel, compaction, console);
   auto& states = folder.record(io::Step::kTest)["states"];
   states.push_back(state);
   report::moduli_table(moduli_of(states)).write(folder.file("moduli.csv"));
@@ -135,10 +170,6 @@ void do_test(Journey& journey, Console& console) {
     console.say(fmt::format("test: already done, {}", folder.file("moduli.csv").string()));
     return;
   }
-  if (!folder.finished(io::Step::kPress)) {
-    throw InputError(
-        fmt::format("{}: holds no pressed panel yet: strandlab press (or run) comes first", folder.path().string()));
-  }
   const auto hash = io::case_hash(journey.c, io::Step::kPress);
   std::vector<Panel<2>> panels;
   for (const double compaction : journey.c.schedule.compactions) {
@@ -156,6 +187,7 @@ void do_test(Journey& journey, Console& console) {
   double wall_s = 0;
   for (const auto& state : states) wall_s += state.at("wall_s").get<double>();
   folder.record(io::Step::kTest)["wall_s"] = wall_s;
+  refuse_if_none_is_testable(states);
   write_plots(journey, moduli_of(states), console);
   folder.set_finished(io::Step::kTest);
   console.say(fmt::format("test: {} moduli -> {}", moduli_of(states).size(), folder.file("moduli.csv").string()));

@@ -86,6 +86,20 @@ def mat_files():
             expect_bad_input([command, "panel.toml"], ["mat.json"] + parts)
 
 
+def tests_no_mat_can_take():
+    """What the tests would refuse is refused before a mat is pressed for them."""
+    pathlib.Path("panel.toml").write_text("[mat]\nlength_mm = 5\nrows = [\"surface\"]\n", encoding="utf-8")
+    for command in ("check", "press", "run"):
+        expect_bad_input([command, "panel.toml", "--set", "test.kinds=[bending_end_couple]"], ["two strands at the loaded end"])
+    expect_bad_input(["run", "panel.toml", "--set", "test.elements_through_strand=49"], ["elements_through_strand", "from 1 to 48"])
+    expect_bad_input(["check", "panel.toml", "--set", "materials.m.E_L_MPa=inf"], ["E_L_MPa", "a finite number, greater than 0"])
+    expect_bad_input(["check", "panel.toml", "--set", "materials.m.hardening_n=0.5"], ["hardening_n", "1 or more"])
+    pathlib.Path("mat.json").write_text(
+        '{"length_mm": 5, "layer_thickness_mm": 0.8, "layers": [{"role": "surface", "strands": [{"x0": 0, "x1": 5}]}, '
+        '{"role": "surface", "strands": [{"x0": 0, "x1": 5, "material": "popla"}]}]}', encoding="utf-8")
+    expect_bad_input(["run", "panel.toml", "--set", "mat.file=mat.json"], ["mat.json", "layer 2", "unknown material \"popla\"", "poplar"])
+
+
 def run_folders():
     pathlib.Path("panel.toml").write_text("[mat]\nlength_mm = 5\nrows = [\"surface*2\"]\n", encoding="utf-8")
     check(strandlab("mat", "panel.toml", "-o", "run").returncode == DONE, "mat")
@@ -96,7 +110,9 @@ def run_folders():
     expect_bad_input(["mat", "panel.toml", "-o", "letters"], ["letters", "no strandlab run"])
     expect_bad_input(["mat", "panel.toml", "-o", "letters", "--force"], ["letters", "no strandlab run"])
     expect_bad_input(["mat", "panel.toml", "-o", "panel.toml/run"], ["panel.toml/run", "is not a folder"])
-    expect_bad_input(["test", "panel.toml", "-o", "run"], ["run", "no pressed panel"])
+    for folder in ("run", "new"):
+        expect_bad_input(["test", "panel.toml", "-o", folder], [folder, "no pressed panel"])
+        expect_bad_input(["test", "panel.toml", "-o", folder, "--force"], [folder, "no pressed panel"])
     pathlib.Path("run/mat.json").write_text("{}", encoding="utf-8")
     expect_bad_input(["mat", "panel.toml", "-o", "run"], ["run/mat.json", "not the mat of this case"])
 
@@ -116,6 +132,8 @@ def hdf5_files():
     expect_bad_input(["test", "panel.toml", "-o", "pressed"], ["panel_0.h5"])
     panel.write_bytes(whole)
     check(strandlab("test", "panel.toml", "-o", "pressed").returncode == DONE, "test of the whole file")
+    expect_bad_input(["test", "panel.toml", "-o", "pressed", "--force", "--set", "press.speed_m_s=8"],
+                     ["pressed", "press.speed_m_s = 16 there, 8 here"])
 
     record = json.loads(pathlib.Path("pressed/run.json").read_text(encoding="utf-8"))
     record["steps"]["press"]["finished"] = False  # as if it had been killed
@@ -123,7 +141,8 @@ def hdf5_files():
     pathlib.Path("pressed/run.json").write_text(json.dumps(record), encoding="utf-8")
     for name in ("moduli.csv", "theory.csv"):
         pathlib.Path("pressed", name).unlink()
-    shutil.rmtree("pressed/plots")
+    for name in ("plots", "glue_lines"):
+        shutil.rmtree(pathlib.Path("pressed", name))
     for name in ("checkpoint.h5", "checkpoint.previous.h5"):
         pathlib.Path("pressed", name).write_bytes(whole[:1000])
     result = expect_no_new_results(["press", "panel.toml", "-o", "pressed"])
@@ -164,7 +183,7 @@ def no_space():
     check(not any(files("full").values()), f"full disk: left {list(files('full'))}")
 
 
-TESTS = [usage, case_files, overrides, mat_files, run_folders, hdf5_files, no_permission, no_space]
+TESTS = [usage, case_files, overrides, mat_files, tests_no_mat_can_take, run_folders, hdf5_files, no_permission, no_space]
 
 for test in TESTS:
     with scratch():

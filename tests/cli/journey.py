@@ -127,6 +127,29 @@ def run_folder():
         check(pathlib.Path("out", name).stat().st_size > 0, f"run folder has {name}")
 
 
+# Two strands at two heights, a row of air between their faces: nothing connects the ends until a little pressing brings them
+# within the curing gap.
+APART = """{"length_mm": 5, "layer_thickness_mm": 0.8, "layers": [
+  {"role": "surface", "strands": [{"x0": 0, "x1": 3}]},
+  {"role": "surface", "strands": [{"x0": 0, "x1": 1}]},
+  {"role": "surface", "strands": [{"x0": 2, "x1": 5}]}]}"""
+
+
+def not_testable():
+    """A panel that cannot be tested costs its own moduli only; that none can is an error."""
+    pathlib.Path("mat.json").write_text(APART, encoding="utf-8")
+    pathlib.Path("a.toml").write_text("[mat]\nfile = \"mat.json\"\n[press]\ncompactions = [0, 0.04]\n[glue]\nmax_gap_mm = 0.78\n",
+                                      encoding="utf-8")
+    result = strandlab("run", "a.toml")
+    check(result.returncode == DONE, f"run: {result.stderr}")
+    check("compaction 0: this panel cannot be tested: no strands connect" in result.stdout + result.stderr, result.stdout + result.stderr)
+    check({row["compaction"] for row in read_csv("runs/a/moduli.csv")} == {"0.04"}, "moduli of the other state")
+    states = json.loads(pathlib.Path("runs/a/run.json").read_text(encoding="utf-8"))["steps"]["test"]["states"]
+    check([("not_testable" in s, len(s["moduli"]) > 0) for s in states] == [(True, False), (False, True)], f"run.json: {states}")
+    none = strandlab("run", "a.toml", "-o", "none", "--set", "press.compactions=[0]")
+    check(none.returncode == 2 and "no panel can be tested" in none.stderr, f"none: {none.returncode} {none.stderr}")
+
+
 def threads():
     pathlib.Path("a.toml").write_text(CASE, encoding="utf-8")
     for count in (1, 2, 3):
@@ -167,7 +190,7 @@ def failing():
     check(result.stderr.split(": ", 1)[1].strip() in pathlib.Path("runs/a/log.txt").read_text(encoding="utf-8"), "the log has the error")
 
 
-for test in (init_and_check, overrides, single_steps, run_folder, threads, killed, failing):
+for test in (init_and_check, overrides, single_steps, run_folder, not_testable, threads, killed, failing):
     with scratch():
         test()
 finish()

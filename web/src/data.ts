@@ -52,6 +52,7 @@ export interface TestState {
   floating_strands: number;
   glued_fraction: number;
   warnings: string[];
+  not_testable?: string;
 }
 
 export interface RunRecord {

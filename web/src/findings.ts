@@ -78,7 +78,7 @@ function aboutShape(run: Run): Finding[] {
 }
 
 function aboutTests(run: Run): Finding[] {
-  const states = run.record.steps.test?.states ?? [];
+  const states = (run.record.steps.test?.states ?? []).filter(state => !state.not_testable);
   if (states.length === 0) return [];
   const floating = states.filter(state => state.floating_strands > 0);
   const last = states[states.length - 1]!;

@@ -146,10 +146,15 @@ std::vector<std::string> derived_constants(const Case& c) {
 Panel<2> make_panel(const Case& c, const mat::Mat& mat) {
   refuse_too_large(c, mat);
   const double cell_height = mat::thinnest_layer(mat) / c.grid.cells_through_strand;
-  auto panel = strandlab::make_panel(mat, kinds_and_materials(c), cell_height * c.grid.cell_aspect / kPointsPerCell,
-                                     c.grid.cells_through_strand * kPointsPerCell);
-  refuse_too_short(c, panel);
-  return panel;
+  try {
+    auto panel = strandlab::make_panel(mat, kinds_and_materials(c), cell_height * c.grid.cell_aspect / kPointsPerCell,
+                                       c.grid.cells_through_strand * kPointsPerCell);
+    refuse_too_short(c, panel);
+    return panel;
+  } catch (const InputError& e) {
+    if (c.mat_file.empty()) throw;
+    throw InputError(fmt::format("{}: {}", c.mat_file, e.what()));
+  }
 }
 
 }  // namespace strandlab::io

@@ -312,7 +312,7 @@ void add_material_keys(std::vector<Key>& t) {
   t.push_back(constant("S_TL_MPa", "MPa", kPositiveOrInfinite, "yield stress in TL shear", &M::S_TL));
   t.push_back(
       constant("hardening_K_MPa", "MPa", kNotNegative, "hardening: yield at 1 + (K/Y_R) alpha^n", &M::hardening_K));
-  t.push_back(constant("hardening_n", "", kPositive, "exponent of the hardening", &M::hardening_n));
+  t.push_back(constant("hardening_n", "", {.lo = 1}, "exponent of the hardening", &M::hardening_n));
   add_crushing_keys(t);
 }
 
@@ -392,7 +392,8 @@ void add_test_keys(std::vector<Key>& t) {
                        [](auto& c) -> auto& { return c.test.kinds; }),
                    test_names));
   t.push_back(key(
-      "test.elements_through_strand", "", {.lo = 1, .hi = 64}, "finite elements through the thickness of a strand",
+      "test.elements_through_strand", "", {.lo = 1, .hi = vtest::kMostElements},
+      "finite elements through the thickness of a strand",
       [](auto& c) -> auto& { return c.test.elements_through_strand; }));
   t.push_back(key(
       "test.span_to_thickness", "", {.lo = 8, .hi = 200},

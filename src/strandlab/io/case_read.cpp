@@ -289,7 +289,9 @@ void check_value(const Key& key, const Case& c, const Value& value, const std::s
   const auto rule = allowed(key, c);
   for (const double v : numbers) {
     if (!inside(key.range, v)) {
-      throw InputError(fmt::format("{}: must be {}", opening, rule.empty() ? "a finite number" : rule));
+      const bool never = std::isinf(v) && !key.range.infinite && !rule.empty();
+      throw InputError(fmt::format("{}: must be {}{}", opening, never ? "a finite number, " : "",
+                                   rule.empty() ? "a finite number" : rule));
     }
   }
   if (key.range.increasing &&

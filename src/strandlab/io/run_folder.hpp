@@ -15,7 +15,8 @@ class RunFolder {
   // Opens the folder of a case, made where it is missing; with `force` the steps from `first` on, or from the first
   // that another case changes, start again. Results of the same case are kept and built upon. Throws InputError, with
   // nothing written, for a folder that holds something else or another case's results (without `force`), that may not
-  // be written, whose panels a command that starts at the test would need but does not find pressed, has less than `needed_bytes` of space, or is in use by another run.
+  // be written, whose panels a command that starts at the test would need but does not find pressed, has less than
+  // `needed_bytes` of space, or is in use by another run.
   RunFolder(std::filesystem::path folder, const Case& c, Step first, bool force, double needed_bytes);
   ~RunFolder();
   RunFolder(RunFolder&& other) noexcept;

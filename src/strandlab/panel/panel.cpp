@@ -36,7 +36,7 @@ std::vector<std::string> material_names(const std::vector<StrandKind>& kinds) {
 }
 
 const wood::Material& find_material(const StrandKind& kind, const mat::Strand& strand,
-                                    const std::vector<StrandKind>& kinds) {
+                                    const std::vector<StrandKind>& kinds, std::size_t layer) {
   if (!strand.material || *strand.material == kind.material.name) return kind.material;
   for (const auto& other : kinds) {
     if (other.material.name == *strand.material) return other.material;
@@ -45,8 +45,8 @@ const wood::Material& find_material(const StrandKind& kind, const mat::Strand& s
     if (built_in.name == *strand.material) return built_in;
   }
   const auto names = material_names(kinds);
-  throw InputError(fmt::format("strand at x = {} mm of a \"{}\" layer: unknown material \"{}\"{} Materials: {}",
-                               strand.x0_mm, kind.name, *strand.material, did_you_mean(*strand.material, names),
+  throw InputError(fmt::format("layer {}, strand at x = {} mm: unknown material \"{}\"{} Materials: {}", layer + 1,
+                               strand.x0_mm, *strand.material, did_you_mean(*strand.material, names),
                                quoted_list(names)));
 }
 
@@ -68,7 +68,7 @@ Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, d
       s.kind = kind.name;
       s.row = static_cast<int>(row);
       s.angle_deg = piece.angle_deg.value_or(kind.angle_deg);
-      auto wood = wood::softened(find_material(kind, piece, kinds), kind.yield_factor);
+      auto wood = wood::softened(find_material(kind, piece, kinds, row), kind.yield_factor);
       wood.law = kind.material.law;
       s.material = wood::in_strand_axes(wood, s.angle_deg, kind.off_axis);
       s.stiffness_factor = kind.stiffness_factor;
@@ -104,7 +104,7 @@ Weight weigh(const mat::Mat& mat, const std::vector<StrandKind>& kinds) {
   for (std::size_t row = 0; row < mat.layers.size(); ++row) {
     const auto& kind = find_kind(kinds, mat.layers[row].role, row);
     for (const auto& piece : mat.layers[row].strands) {
-      const auto& material = find_material(kind, piece, kinds);
+      const auto& material = find_material(kind, piece, kinds, row);
       const double mass = (piece.x1_mm - piece.x0_mm) * mat.thickness_of(row) * material.density_kg_m3;
       add(weight.by_kind, kind.name, mass);
       add(weight.by_material, material.name, mass);

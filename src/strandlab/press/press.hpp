@@ -94,8 +94,9 @@ struct Setup {
 template <int Dim>
 Setup<Dim> setup(const Panel<Dim>& mat, const Resolution& resolution, mpm::Side sides, const mpm::Options& engine);
 
-// Presses a mat (or goes on from `resume`) through the schedule. Throws RunError with the newest good state, at most 500
-// steps old and never older than one handed out before, handed to the checkpoint sink when a particle leaves the grid, inverts, turns non-finite or the time step underflows.
+// Presses a mat (or goes on from `resume`) through the schedule. Throws RunError with the newest good state, at most
+// 500 steps old and never older than one handed out before, handed to the checkpoint sink when a particle leaves the
+// grid, inverts, turns non-finite or the time step underflows.
 template <int Dim>
 Outcome<Dim> press(const Panel<Dim>& mat, const Schedule& schedule, const Setup<Dim>& setup, const Sink<Dim>& sink,
                    const std::optional<Checkpoint<Dim>>& resume = std::nullopt);

@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "strandlab/vtest/window.hpp"
+
 namespace strandlab::vtest {
 namespace {
 
@@ -25,8 +27,7 @@ Connection connect(const Panel<2>& panel, const std::vector<glue::GluePoint<2>>&
   const auto n = panel.strands.size();
   Connection connection;
   for (const auto& strand : panel.strands) {
-    const double tolerance =
-        0.25 * strand.spacing[0];  // a strand cut by the window may have crept a little in pressing
+    const double tolerance = kCreep * strand.spacing[0];
     connection.at_left.push_back(end_position(strand, false) < tolerance);
     connection.at_right.push_back(end_position(strand, true) > panel.length_mm - tolerance);
   }

@@ -11,6 +11,7 @@
 #include "strandlab/core/error.hpp"
 #include "strandlab/vtest/beam.hpp"
 #include "strandlab/vtest/load_cases.hpp"
+#include "strandlab/vtest/window.hpp"
 
 namespace strandlab::vtest {
 namespace {
@@ -56,26 +57,6 @@ void check_span(const Panel<2>& panel, const Options& options) {
   }
 }
 
-void check(const Panel<2>& panel, const Options& options) {
-  if (panel.strands.empty()) throw InputError("the panel has no strands to test");
-  if (options.kinds.empty()) throw InputError("no kind of test is asked for: give at least one of " + allowed_kinds());
-  if (options.compliance_t_mm_per_MPa.empty()) throw InputError("no glue compliance 1/D_t is given: give at least one");
-  const auto check_number = [](const char* what, double value) {
-    if (std::isnan(value)) throw InputError(fmt::format("glue compliance {} is not a number", what));
-  };
-  for (const double c : options.compliance_t_mm_per_MPa) check_number("1/D_t", c);
-  check_number("1/D_n", options.compliance_n_mm_per_MPa);
-  if (options.elements_through_strand < 1 || options.elements_through_strand > 48) {
-    throw InputError(
-        fmt::format("{} elements through a strand: 1 to 48 are possible", options.elements_through_strand));
-  }
-  if (!(options.perfect_bond >= 10 && options.perfect_bond <= 1e6)) {
-    throw InputError(
-        fmt::format("a perfect bond of {} times the wood's stiffness: 10 to 1e6 are possible", options.perfect_bond));
-  }
-  check_span(panel, options);
-}
-
 // Stiffness of a glue line of compliance 1/D, between that of a perfect bond and the floor. Says what it changed.
 double glue_stiffness(const char* symbol, double compliance, double perfect, std::vector<std::string>& warnings) {
   std::string warning;
@@ -114,7 +95,8 @@ Model make_model(const Panel<2>& panel, const Options& options, Result& result) 
   double glued = 0;
   for (const auto& point : points) glued += point.area;
   const double facing = glue::facing_length(panel);
-  result.glued_fraction = facing > 0 ? 2 * glued / facing : 0;
+  // Glue lines are measured on the lower strand's face: where that is the longer of the two the sum may pass 1.
+  result.glued_fraction = facing > 0 ? std::min(1.0, 2 * glued / facing) : 0;
 
   model.connection = connect(panel, points);
   const auto& group = model.connection.group;
@@ -357,6 +339,11 @@ std::vector<Modulus> bend_on_supports(const Trial& trial, const Options& options
   return moduli;
 }
 
+int strands_at_right_end(const Panel<2>& panel) {
+  const auto at_right = connect(panel, {}).at_right;
+  return static_cast<int>(std::count(at_right.begin(), at_right.end(), true));
+}
+
 std::vector<Modulus> measure_kinds(const Trial& trial, const Options& options, statics::Cholesky& cholesky,
                                    Result& result) {
   const auto& section = trial.model.section;
@@ -393,10 +380,41 @@ std::vector<Modulus> measure_kinds(const Trial& trial, const Options& options, s
 
 }  // namespace
 
+void check(const Panel<2>& panel, const Options& options) {
+  if (panel.strands.empty()) throw InputError("the panel has no strands to test");
+  if (options.kinds.empty()) throw InputError("no kind of test is asked for: give at least one of " + allowed_kinds());
+  if (options.compliance_t_mm_per_MPa.empty()) throw InputError("no glue compliance 1/D_t is given: give at least one");
+  const auto check_number = [](const char* what, double value) {
+    if (std::isnan(value)) throw InputError(fmt::format("glue compliance {} is not a number", what));
+  };
+  for (const double c : options.compliance_t_mm_per_MPa) check_number("1/D_t", c);
+  check_number("1/D_n", options.compliance_n_mm_per_MPa);
+  if (options.elements_through_strand < 1 || options.elements_through_strand > kMostElements) {
+    throw InputError(fmt::format("{} elements through a strand: 1 to {} are possible", options.elements_through_strand,
+                                 kMostElements));
+  }
+  if (!(options.perfect_bond >= 10 && options.perfect_bond <= 1e6)) {
+    throw InputError(
+        fmt::format("a perfect bond of {} times the wood's stiffness: 10 to 1e6 are possible", options.perfect_bond));
+  }
+  if (wants(options, Kind::kBendingEndCouple) && strands_at_right_end(panel) < 2) {
+    throw InputError("bending by an end couple needs two strands at the loaded end, the mat has fewer");
+  }
+}
+
 Result measure(const Panel<2>& panel, const Options& options) {
   check(panel, options);
+  check_span(panel, options);
   Result result;
-  const Model model = make_model(panel, options, result);
+  const auto specimen = cut_to_window(panel);
+  if (specimen.furthest_mm > 0) {
+    result.warnings.push_back(fmt::format(
+        "Strands reach up to {:.3g} mm beyond the panel's ends, as free sides let them: the specimen is cut "
+        "there, {:.2g} % of the wood and {} whole strands are left out.",
+        specimen.furthest_mm, 100 * specimen.cut_fraction, specimen.strands_outside));
+  }
+  if (specimen.panel.strands.empty()) throw InputError("no strand lies between the ends of the panel");
+  const Model model = make_model(specimen.panel, options, result);
   if (on_supports(options) && model.connection.groups > 1) {
     throw InputError(
         fmt::format("bending on supports needs a panel in one piece; this one is in {} that no glue connects",
@@ -419,6 +437,10 @@ Result measure(const Panel<2>& panel, const Options& options) {
       modulus.compliance_t_mm_per_MPa = compliance;
       result.moduli.push_back(modulus);
     }
+  }
+  for (auto& slip : result.slips) {
+    slip.a = specimen.strand[slip.a];
+    slip.b = specimen.strand[slip.b];
   }
   return result;
 }

@@ -18,6 +18,8 @@ std::vector<std::string> kind_names();         // of all kinds
 Kind kind_from_name(const std::string& name);  // throws InputError with the allowed names
 std::string allowed_kinds();                   // those names, comma-separated
 
+inline constexpr int kMostElements = 48;  // through a strand
+
 struct Options {
   std::vector<Kind> kinds{Kind::kTension, Kind::kBendingEndRotation};
   std::vector<double> compliance_t_mm_per_MPa{0.0};  // 1/D_t; negative is taken as perfect, with a warning
@@ -57,8 +59,12 @@ struct Result {
   std::vector<std::string> warnings;                                // plain sentences
 };
 
+// Refuses options that no panel of this mat could be tested with, before it is pressed. Throws InputError.
+void check(const Panel<2>& mat, const Options& options);
+
 // Moduli of the panel, frozen as it lies between the platens: small strain, linear, plane strain, material axes as
 // pressed; locked-in stress, geometric stiffness and springback are ignored.
+// Strands that free sides let beyond the end planes x = 0 and x = L are cut there, with a warning.
 //  - tension: end planes kept plane and free to move through the thickness, E = 2 U/(eps^2 L b h)
 //  - bending by end rotation: end plane x = L turned by theta at no axial force, E_b = 2 U L/(I theta^2)
 //  - bending by end couple: x = 0 clamped, axial forces +-P over the end faces of the outermost rows present at x = L,

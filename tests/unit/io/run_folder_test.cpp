@@ -85,8 +85,8 @@ TEST(RunFolder, ForceOfATestNeverCostsThePanels) {
   const TemporaryFolder folder;
   make_finished(folder / "run", Case());
   const auto before = test::contents(folder / "run/run.json");
-  const auto message = message_of<InputError>(
-      [&] { RunFolder(folder / "run", with("press.speed_m_s=8"), Step::kTest, true, kSmall); });
+  const auto message =
+      message_of<InputError>([&] { RunFolder(folder / "run", with("press.speed_m_s=8"), Step::kTest, true, kSmall); });
   EXPECT_NE(message.find("press.speed_m_s = 16 there, 8 here"), std::string::npos) << message;
   EXPECT_EQ(test::contents(folder / "run/run.json"), before);
   EXPECT_EQ(test::contents(folder / "run/panels/panel_0.h5"), "x");
@@ -95,8 +95,7 @@ TEST(RunFolder, ForceOfATestNeverCostsThePanels) {
 TEST(RunFolder, ATestNeedsPressedPanels) {
   const TemporaryFolder folder;
   for (const bool force : {false, true}) {
-    const auto message =
-        message_of<InputError>([&] { RunFolder(folder / "new", Case(), Step::kTest, force, kSmall); });
+    const auto message = message_of<InputError>([&] { RunFolder(folder / "new", Case(), Step::kTest, force, kSmall); });
     EXPECT_NE(message.find("no pressed panel"), std::string::npos) << message;
     EXPECT_EQ(folder.files(), 0U);
   }

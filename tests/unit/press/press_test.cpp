@@ -150,8 +150,8 @@ TEST(Press, WarnsOfTooFastPressing) {
   EXPECT_NE(warnings.front().find("press.speed_m_s"), std::string::npos) << warnings.front();
 }
 
-// States handed out by a pressing that fails: the mat slides out of its window sideways, at `speed_mm_s` along the panel
-// between free sides and smooth platens.
+// States handed out by a pressing that fails: the mat slides out of its window sideways, at `speed_mm_s` along the
+// panel between free sides and smooth platens.
 std::vector<press::Checkpoint<2>> states_of_failing_press(double speed_mm_s, const press::Schedule& schedule,
                                                           double checkpoint_interval_s) {
   auto panel = rows(2, 2 * kRow);

@@ -96,6 +96,30 @@ TEST(Measure, HoldsGroupsThatDoNotTouch) {
   EXPECT_NEAR(result.moduli[0].modulus_MPa, 10003.3 * 2 / 3, 0.1);
 }
 
+// The window is the specimen: of strands that free sides let out of it, what lies outside is cut off. Here an evenly
+// stretched stack, 3 mm longer than the window at both ends, and a strand wholly outside.
+TEST(Measure, CutsTheSpecimenAtTheWindow) {
+  Options options;
+  const auto inside = measure(panel_of({{0, 0, 20}, {1, 0, 20}}), options);
+  auto panel = panel_of({{0, 0, 18}, {0, 18.1, 20}, {1, 0, 20}});
+  const double stretch = 1.3;  // about the middle: ends at -3 and 23 mm; the short strand from 20.53 mm
+  for (auto& strand : panel.strands) {
+    for (auto& x : strand.x) x[0] = 10 + stretch * (x[0] - 10);
+    for (auto& F : strand.F) F(0, 0) = stretch;
+  }
+  const auto cut = measure(panel, options);
+  ASSERT_EQ(cut.warnings.size(), 1U);
+  EXPECT_NE(cut.warnings[0].find("3 mm beyond"), std::string::npos) << cut.warnings[0];
+  EXPECT_NE(cut.warnings[0].find("1 whole strand"), std::string::npos) << cut.warnings[0];
+  EXPECT_EQ(cut.floating_strands, 0);
+  ASSERT_FALSE(cut.slips.empty());
+  EXPECT_EQ(cut.slips.front().b, 2);  // as in the panel, without the strand outside
+  // Density, and with it stiffness per volume, fell by the stretch; nothing else did.
+  for (std::size_t i = 0; i < cut.moduli.size(); ++i)
+    EXPECT_NEAR(cut.moduli[i].modulus_MPa * stretch / inside.moduli[i].modulus_MPa, 1, 2e-3)
+        << name(cut.moduli[i].kind);
+}
+
 TEST(Measure, SaysWhenNothingConnectsTheEnds) {
   const auto message = message_of([] { measure(panel_of({{0, 0, 9}, {1, 12, 20}}), {}); });
   EXPECT_NE(message.find("connect the two ends"), std::string::npos);
