@@ -537,7 +537,7 @@ export class SectionView {
     this.canvas.dataset['frame'] = String(this.index);
   }
 
-  private ramp(label: string, map: Colouring['map'], low: number, high: number): HTMLElement[] {
+  private ramp(label: string, map: Colouring['map'], low: number, high: number): HTMLElement {
     const strip = el('div', {class: 'strip'});
     strip.style.background = `linear-gradient(90deg, ${Array.from({length: 17}, (_, i) => css(interpolate(map, i / 16))).join(', ')})`;
     const scale = el('div', {class: 'scale'}, ...ticks(low, high, 5).map(value => {
@@ -545,14 +545,14 @@ export class SectionView {
       tick.style.left = `${(100 * (value - low)) / (high - low)}%`;
       return tick;
     }));
-    return [el('span', {class: 'quantity'}, label), el('div', {class: 'ramp'}, strip, scale)];
+    return el('div', {class: 'key'}, el('span', {class: 'quantity'}, label), el('div', {class: 'ramp'}, strip, scale));
   }
 
   // What the colours mean.
   private drawBar(): void {
     this.bar.replaceChildren();
     const c = this.colourings[this.colouring];
-    if (c) this.bar.append(...this.ramp(c.unit ? `${c.label}, ${c.unit}` : c.label, c.map, c.low, c.high));
+    if (c) this.bar.append(this.ramp(c.unit ? `${c.label}, ${c.unit}` : c.label, c.map, c.low, c.high));
     else this.options.kinds.forEach((kind, i) => {
       const swatch = el('i', {});
       swatch.style.background = kindColour(i);
@@ -560,7 +560,7 @@ export class SectionView {
     });
     const state = this.showGlue ? this.slip : undefined;
     if (state) {
-      this.bar.append(...this.ramp(`Slip of glue lines of 1/Dₜ ${state.compliance_t_mm_per_MPa} mm/MPa in tension, µm at ` +
+      this.bar.append(this.ramp(`Slip of glue lines of 1/Dₜ ${state.compliance_t_mm_per_MPa} mm/MPa in tension, µm at ` +
         `${100 * state.strain} % strain`, plasma, 0, state.highest_um));
     }
   }
