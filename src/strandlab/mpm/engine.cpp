@@ -23,6 +23,8 @@ constexpr int kTileColumns3 = 16;      // and along and across it (3D)
 constexpr int kTimeStepInterval = 32;  // steps between updates of the time step
 constexpr double kMaxDrift = 0.45;     // cells a particle may move before the windows are made again
 constexpr double kWindowDrift = 0.5;   // and what the windows allow
+constexpr double kFilterDrift = 0.1;   // the same before a step that filters: it looks at positions after the step
+constexpr double kMaxStretch = 20;     // of a particle; far beyond what wood bears
 
 double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -74,6 +76,7 @@ struct Engine<Dim>::Impl {
       AlignedArray offset, area;
     };
     std::vector<FaceData> faces;
+    Vec<Dim> reach = Vec<Dim>::Zero();  // furthest offset of a face point per axis, mm at formation
     double particle_volume() const { return spacing.prod(); }
     double particle_mass() const { return material.density * spacing.prod(); }
   };
@@ -278,6 +281,7 @@ struct Engine<Dim>::Impl {
     const std::size_t f = body.faces.size();
     body.faces.emplace_back();
     auto& data = body.faces.back();
+    for (const auto& offset : face.offset) body.reach = body.reach.cwiseMax(offset.cwiseAbs());
     std::vector<std::vector<int>> by_tile(tile_count);
     for (std::size_t i = 0; i < face.particle.size(); ++i)
       by_tile[tile_of[face.particle[i]]].push_back(static_cast<int>(i));
@@ -344,6 +348,7 @@ struct Engine<Dim>::Impl {
     }
     for (int a = 0; a < Dim; ++a) f.inverse_cell[a] = 1 / f.cell[a];
     f.dt = state.time_step_s;
+    f.transit = state.time_step_s / options.courant;
     f.platen[0] = {has_platens, state.bottom.position, state.bottom.velocity};
     f.platen[1] = {has_platens, state.top.position, state.top.velocity};
     return f;
@@ -351,9 +356,11 @@ struct Engine<Dim>::Impl {
 
   // Wave speeds along the panel's axes from the acoustic tensor of the rotated stiffness (bounded by its largest row
   // sum), in a sample of the particles: the grain angle varies slowly along a strand.
-  double time_step() const {
+  double time_step(std::string* where = nullptr) const {
     const Frame<Dim> f = frame();
     double limit = 1e300;
+    const BodyData* tightest = nullptr;  // and its particle
+    const double* at = nullptr;
     for (const auto& body : bodies) {
       const VoigtMatrix& c = body.material.stiffness;
       const int count = C::count(body.components);
@@ -384,10 +391,15 @@ struct Engine<Dim>::Impl {
             pressure = std::max(pressure, std::abs(d[(C::stress + k) * kBlock]));
           const double speed =
               std::sqrt((stiffness + pressure) / body.material.density) + std::abs(d[(C::v + a) * kBlock]);
-          limit = std::min(limit, f.cell[a] / speed);
+          if (f.cell[a] / speed < limit) {
+            limit = f.cell[a] / speed;
+            tightest = &body;
+            at = d;
+          }
         }
       }
     }
+    if (where) *where = tightest ? fmt::format("{} at ({})", tightest->name, text(position(at))) : "no particle";
     return options.courant * limit;
   }
 
@@ -397,9 +409,7 @@ struct Engine<Dim>::Impl {
     for (int b = 0; b < body.blocks; ++b) {
       for (int l = 0; l < body.lanes[b]; ++l) {
         const double* d = body.data.data() + static_cast<std::size_t>(b) * count * kBlock + l;
-        Vec<Dim> x;
-        for (int a = 0; a < Dim; ++a) x[a] = d[(C::x + a) * kBlock];
-        visit(body.particle[b * kBlock + l], x, d);
+        visit(body.particle[b * kBlock + l], position(d), d);
       }
     }
   }
@@ -420,6 +430,12 @@ struct Engine<Dim>::Impl {
         }
       });
     }
+  }
+
+  static Vec<Dim> position(const double* d) {
+    Vec<Dim> x;
+    for (int a = 0; a < Dim; ++a) x[a] = d[(C::x + a) * kBlock];
+    return x;
   }
 
   static std::string text(const Vec<Dim>& x) {
@@ -479,6 +495,11 @@ struct Engine<Dim>::Impl {
     return store;
   }
 
+  bool filter_due() const { return options.filter_interval > 0 && (state.step + 1) % options.filter_interval == 0; }
+  bool windows_stale() const {
+    return !windows_valid || *std::max_element(drift.begin(), drift.end()) > (filter_due() ? kFilterDrift : kMaxDrift);
+  }
+
   void make_windows() {
     check_particles_inside();
     const Frame<Dim> f = frame();
@@ -515,6 +536,10 @@ struct Engine<Dim>::Impl {
             }
           }
           points.push_back(x);
+          if ((x - position(d)).norm() <= kMaxStretch * body.reach.norm()) continue;
+          throw RunError(
+              fmt::format("step {}, time {:.6g} ms: a particle of {} at ({}) is stretched out of all proportion",
+                          state.step, 1e3 * state.time_s, body.name, text(position(d))));
         }
         windows[b].faces.push_back(window_over(points, f, surface_records));
         surface_records += windows[b].faces.back().records;
@@ -539,7 +564,10 @@ struct Engine<Dim>::Impl {
       see_wood(body, v);
       v.mass = body.particle_mass();
       v.volume = body.particle_volume();
-      for (int a = 0; a < Dim; ++a) v.half_size[a] = 0.5 * body.spacing[a];
+      for (int a = 0; a < Dim; ++a) {
+        v.half_size[a] = 0.5 * body.spacing[a];
+        v.reach[a] = body.reach[a];
+      }
       windows[b].field.window.base = windows[b].field.base.data();
       v.window = windows[b].field.window;
       for (int k = 0; k < 2; ++k) {
@@ -653,7 +681,7 @@ struct Engine<Dim>::Impl {
   void step() {
     const double t0 = options.profile ? seconds() : 0, c0 = options.profile ? ticks() : 0;
     if (state.step % kTimeStepInterval == 0) update_time_step();
-    if (!windows_valid || *std::max_element(drift.begin(), drift.end()) > kMaxDrift) make_windows();
+    if (windows_stale()) make_windows();
     const Frame<Dim> f = frame();
     scatter(f);
     apply_tractions(f);
@@ -664,7 +692,7 @@ struct Engine<Dim>::Impl {
     book_tractions(f);
     stretch_springs(f);
     gather(f);
-    if (options.filter_interval > 0 && (state.step + 1) % options.filter_interval == 0) filter(f);
+    if (filter_due()) filter(f);
     advance(f);
     if (options.profile) {
       timing_seconds += seconds() - t0;
@@ -675,7 +703,7 @@ struct Engine<Dim>::Impl {
   // A step whose nodes take their velocity from outside.
   void impose(double dt, const std::function<Vec<Dim>(const Vec<Dim>&)>& velocity) {
     state.time_step_s = dt;
-    if (!windows_valid || *std::max_element(drift.begin(), drift.end()) > kMaxDrift) make_windows();
+    if (windows_stale()) make_windows();
     const Frame<Dim> f = frame();
     const double filtered_before = state.energies.filter;
     scatter(f);
@@ -713,8 +741,10 @@ struct Engine<Dim>::Impl {
   void update_time_step() {
     state.time_step_s = time_step();
     if (!(state.time_step_s > 1e-4 * first_time_step)) {
-      throw RunError(fmt::format("step {}, time {:.6g} ms: the time step fell to {:.3g} s from {:.3g} s", state.step,
-                                 1e3 * state.time_s, state.time_step_s, first_time_step));
+      std::string where;
+      time_step(&where);
+      throw RunError(fmt::format("step {}, time {:.6g} ms: the time step fell to {:.3g} s from {:.3g} s, for {}",
+                                 state.step, 1e3 * state.time_s, state.time_step_s, first_time_step, where));
     }
   }
 
@@ -769,7 +799,11 @@ struct Engine<Dim>::Impl {
       for (int k = 0; k < 2; ++k) total.platen_impulse[k] += r.platen_impulse[k];
     }
     if (total.overflow) {
-      throw RunError(fmt::format("step {}: more than {} bodies meet at one grid node", state.step, kMaxFields));
+      const auto where = std::find_if(pencil_results.begin(), pencil_results.end(), [](auto& r) { return r.overflow; });
+      const int column = table.pencils[where - pencil_results.begin()].index[0];
+      throw RunError(
+          fmt::format("step {}, time {:.6g} ms: more than {} bodies meet at one grid node near x = {:.4f} mm",
+                      state.step, 1e3 * state.time_s, kMaxFields, f.origin[0] + column * f.cell[0]));
     }
     state.energies.friction += total.friction;
     state.energies.contact += total.contact;
@@ -815,6 +849,11 @@ struct Engine<Dim>::Impl {
     const double* d = body.data.data() + static_cast<std::size_t>(block) * C::count(body.components) * kBlock;
     std::string what = "stress is not finite";
     int lane = 0;
+    for (int l = body.lanes[block] - 1; l >= 0; --l) {
+      for (int k = 0; k < body.components; ++k) {
+        if (!(std::abs(d[(C::stress + k) * kBlock + l]) < kLargestStress)) lane = l;
+      }
+    }
     for (int l = 0; l < body.lanes[block]; ++l) {
       Tensor<Dim> F;
       for (int i = 0; i < Dim; ++i) {
@@ -828,10 +867,8 @@ struct Engine<Dim>::Impl {
         break;
       }
     }
-    Vec<Dim> x;
-    for (int a = 0; a < Dim; ++a) x[a] = d[(C::x + a) * kBlock + lane];
     throw RunError(fmt::format("step {}, time {:.6g} ms: particle {} of {} at ({}): {}", state.step, 1e3 * state.time_s,
-                               body.particle[block * kBlock + lane], body.name, text(x), what));
+                               body.particle[block * kBlock + lane], body.name, text(position(d + lane)), what));
   }
 
   void advance(const Frame<Dim>& f) {

@@ -469,16 +469,20 @@ STRANDLAB_INLINE bool find_pair(const Meeting<Dim>& a, const Meeting<Dim>& b, do
   return true;
 }
 
-// Part of an overlap that a step pushes back. At a platen the impulses stop the mean motion of the nodes, not the face
-// itself, which would creep through over thousands of steps; a few per cent of so small an overlap a step cost no
-// energy worth the name. Between bodies none: overlaps of ends that met at speed would turn into elastic energy.
-inline constexpr double kPlatenReturn = 0.05;
+// Part of an overlap that is pushed back while a wave crosses a cell, and the deepest overlap that counts, in cells. At
+// a platen the impulses stop the mean motion of the nodes, not the face itself, which would creep through over
+// thousands of steps; returning so small an overlap so slowly costs no energy worth the name. Between bodies none is
+// pushed back: overlaps of ends that met at speed would turn into elastic energy.
+inline constexpr double kPlatenReturn = 0.02;
+inline constexpr double kDeepestReturn = 0.01;
 
 template <int Dim>
-STRANDLAB_INLINE void finish_pair(double dt, double pushed_back, Pair<Dim>& pair) {
+STRANDLAB_INLINE void finish_pair(const Frame<Dim>& frame, bool on_platen, Pair<Dim>& pair) {
   const double inverse = 1 / __builtin_sqrt(dot<Dim>(pair.n, pair.n));
   for (int d = 0; d < Dim; ++d) pair.n[d] *= inverse;
-  pair.target = -(pair.gap > 0 ? 1 : pushed_back) * pair.gap / dt;
+  const double deepest = kDeepestReturn * frame.cell[Dim - 1];
+  const double overlap = -pair.gap < deepest ? -pair.gap : deepest;
+  pair.target = pair.gap > 0 ? -pair.gap / frame.dt : on_platen ? kPlatenReturn * overlap / frame.transit : 0.0;
 }
 
 // One pass over the pairs at a node, all from the same velocities: impulses so far are corrected towards
@@ -487,7 +491,7 @@ STRANDLAB_INLINE void finish_pair(double dt, double pushed_back, Pair<Dim>& pair
 // change of velocity.
 template <int Dim>
 STRANDLAB_INLINE double contact_pass(Meeting<Dim>* m, int fields, Pair<Dim>* pairs, int count) {
-  double change[kMaxFields][Dim] = {};
+  double change[3 * kMaxFields][Dim] = {};  // images among them
   for (int p = 0; p < count; ++p) {
     Pair<Dim>& pair = pairs[p];
     const Meeting<Dim>&a = m[pair.a], &b = m[pair.b];
@@ -540,7 +544,7 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
     }
   }
   for (int p = 0; p < count; ++p) {
-    finish_pair<Dim>(frame.dt, pairs[p].b >= real ? kPlatenReturn : 0.0, pairs[p]);
+    finish_pair<Dim>(frame, pairs[p].b >= real, pairs[p]);
     ++m[pairs[p].a].partners;
     ++m[pairs[p].b].partners;
     pairs[p].normal = 0;
@@ -598,21 +602,22 @@ STRANDLAB_INLINE bool has_mirror(const PencilField& field, int k, int row, const
 }
 
 // Contact of a field with platen k: the pair of the field (a) and its image (b). The gap to the image is twice that to
-// the wall.
+// the wall. Of the faces that look at the wall the one furthest from it counts: where two of them meet, at a strand's
+// end, the body lies behind both, and the plane of one reaches beyond the body.
 template <int Dim>
 STRANDLAB_INLINE bool platen_pair(const Meeting<Dim>& field, const Frame<Dim>& frame, int k, double node_height,
                                   double reach, Pair<Dim>& pair) {
   const double direction = k == 0 ? -1 : 1;  // from the field to the platen
-  pair.gap = 1e300;
+  pair.gap = -1e300;
   for (int f = 0; f < field.faces; ++f) {
     const NodeFace<Dim>& face = field.face[f];
     const double along = face.N[Dim - 1] * direction;
     if (along < 0 || along * along < 0.25 * face.size2) continue;
     const double to_wall =
         (frame.platen[k].position - node_height) * direction - face.distance_W * along / (face.W * face.W);
-    pair.gap = 2 * to_wall < pair.gap ? 2 * to_wall : pair.gap;
+    pair.gap = 2 * to_wall > pair.gap ? 2 * to_wall : pair.gap;
   }
-  if (pair.gap > reach) return false;
+  if (pair.gap < -1e299 || pair.gap > reach) return false;
   for (int d = 0; d < Dim; ++d) pair.n[d] = 0;
   pair.n[Dim - 1] = direction;
   return true;
@@ -1015,7 +1020,7 @@ STRANDLAB_INLINE Pack update_stress(const wood::YieldModes<N>& modes, const Pack
     for (int j = 0; j < N; ++j) tau[i] += modes.stiffness[i][j] * strain[j];
     size += absolute(tau[i]);
   }
-  finite = (size < 1e30) & (J > 1e-6);
+  finite = (size < kLargestStress) & (J > 1e-6);
   Pack history = load(block + plastic * kBlock), radius = load(block + (plastic + 1) * kBlock);
   const Pack dissipation = wood::return_map<Law, PackOps, N>(modes, tau, J, history, radius);
   const Mask flowing = dissipation > 0.0;
@@ -1067,13 +1072,13 @@ void gather(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame
     gather_motion(s, body.window, nodes, lanes[b], motion);
     Mask real;
     for (int l = 0; l < kBlock; ++l) real[l] = l < lanes[b] ? -1 : 0;
-    Pack change{};
+    Pack change{}, moved[Dim];
     for (int a = 0; a < Dim; ++a) {
       const Pack dx = frame.dt * motion.v[a];
       store(block + a * kBlock, x[a] + dx);
       store(block + (C::v + a) * kBlock, load(block + (C::v + a) * kBlock) + motion.dv[a]);
       change += motion.dv[a] * motion.dv[a];
-      drift[a] = larger(drift[a], absolute(dx));
+      moved[a] = absolute(dx);
     }
     kinetic += select(real, change, Pack{});
     lap(result.ticks[4]);
@@ -1081,6 +1086,10 @@ void gather(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame
     for (int k = 0; k < Dim * Dim; ++k) A[k] = frame.dt * motion.L[k];
     advance_F<Dim>(A, F, middle);
     for (int k = 0; k < Dim * Dim; ++k) store(block + (C::F + k) * kBlock, F[k]);
+    for (int a = 0; a < Dim; ++a) {  // 2 (F - middle) is the change of F
+      for (int d = 0; d < Dim; ++d) moved[a] += 2 * body.reach[d] * absolute(F[a * Dim + d] - middle[a * Dim + d]);
+      drift[a] = larger(drift[a], moved[a]);
+    }
     Pack strain[6];
     strain_increment(A, middle, strain);
     const Pack J = determinant(F);

@@ -9,7 +9,8 @@ namespace strandlab::mpm {
 inline constexpr int kBlock = 8;   // particles per block: one SIMD pack
 inline constexpr int kRecord = 8;  // doubles per node record
 inline constexpr int kMaxFaces = 6;
-inline constexpr int kMaxFields = 24;  // fields meeting at one node
+inline constexpr int kMaxFields = 24;           // fields meeting at one node
+inline constexpr double kLargestStress = 1e30;  // MPa; beyond, and not a number: failed
 
 // Particles live in blocks of eight; a block holds one pack per component, in this order.
 template <int Dim>
@@ -32,6 +33,7 @@ struct Frame {
   double cell[Dim];
   double inverse_cell[Dim];
   double dt;
+  double transit;  // s, of the fastest wave through a cell
   double gravity[Dim];
   int wall[Dim][2];  // node index of a roller plane, or kNoWall
   struct {
@@ -64,6 +66,7 @@ struct BodyView {
   int components;         // stress components stored: 4 or 6
   double mass, volume;    // of a particle
   double half_size[Dim];  // mm, at formation
+  double reach[Dim];      // mm, at formation: furthest offset of a face point from its particle
   const wood::YieldModes<4>* modes4;
   const wood::YieldModes<6>* modes6;
   bool crushes;  // by wood::CrushingLaw, else wood::HillLaw
@@ -88,7 +91,7 @@ struct TileResult {
   double plastic;         // mJ dissipated in this step
   double kinetic_change;  // mJ, 1/2 sum m |dv|^2 of the particles
   double stress_change;   // mJ, 1/2 sum V0 dtau : d eps
-  double drift[3];        // largest displacement per axis, cells
+  double drift[3];        // largest displacement of a particle or a face point per axis, cells
   long long yielding;
   int bad;          // block of the first particle that failed + 1, 0: none
   double ticks[5];  // weights, scatter, surface, material, gather (when profiled)
