@@ -96,7 +96,7 @@ void check(const Layup& layup) {
 std::vector<Strand> form_row(const LayupRow& row, Ticks window, RandomStream random) {
   std::vector<Strand> strands;
   const auto add = [&](Ticks x0, Ticks x1) {
-    if (x1 <= x0) return;
+    if (static_cast<double>(x1 - x0) < kShortestPiece_mm * kTicksPerMm) return;
     Strand strand;
     strand.x0_mm = mm(x0);
     strand.x1_mm = mm(x1);

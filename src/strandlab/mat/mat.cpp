@@ -167,6 +167,10 @@ void check_strand(const Mat& mat, const Strand& s, const std::string& where) {
   if (!(on_raster(s.x1_mm) > on_raster(s.x0_mm))) {
     reject(where, fmt::format("x1 = {} mm must be larger than x0 = {} mm (by 1e-6 mm or more)", s.x1_mm, s.x0_mm));
   }
+  if (on_raster(s.x1_mm) - on_raster(s.x0_mm) < kShortestPiece_mm - 0.5 / kResolution) {
+    reject(where,
+           fmt::format("x0 = {}, x1 = {}: a strand is at least {} mm long", s.x0_mm, s.x1_mm, kShortestPiece_mm));
+  }
   if (on_raster(s.x0_mm) < 0 || on_raster(s.x1_mm) > on_raster(mat.length_mm)) {
     reject(where,
            fmt::format("x0 = {}, x1 = {} lies outside the mat's window 0 to {} mm", s.x0_mm, s.x1_mm, mat.length_mm));

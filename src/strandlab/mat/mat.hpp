@@ -9,6 +9,10 @@
 
 namespace strandlab::mat {
 
+// A strand in a section is at least this long; a shorter piece of one that the edge of the window cuts off is left out.
+// A body thinner than a few per cent of a grid cell has no use and no stable motion.
+inline constexpr double kShortestPiece_mm = 0.01;
+
 struct Strand {
   double x0_mm = 0, x1_mm = 0;
   std::optional<double> angle_deg;      // else that of the strand kind

@@ -861,7 +861,7 @@ struct Engine<Dim>::Impl {
       }
       double J = F(0, 0) * F(1, 1) - F(0, 1) * F(1, 0);
       if constexpr (Dim == 3) J = Eigen::Matrix3d(F).determinant();
-      if (!(J > 1e-6)) {
+      if (J <= 1e-6) {
         what = fmt::format("inverted (det F = {:.3g})", J);
         lane = l;
         break;

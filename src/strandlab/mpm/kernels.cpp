@@ -473,8 +473,8 @@ STRANDLAB_INLINE bool find_pair(const Meeting<Dim>& a, const Meeting<Dim>& b, do
 // a platen the impulses stop the mean motion of the nodes, not the face itself, which would creep through over
 // thousands of steps; returning so small an overlap so slowly costs no energy worth the name. Between bodies none is
 // pushed back: overlaps of ends that met at speed would turn into elastic energy.
-inline constexpr double kPlatenReturn = 0.02;
-inline constexpr double kDeepestReturn = 0.01;
+inline constexpr double kPlatenReturn = 0.05;
+inline constexpr double kDeepestReturn = 0.1;
 
 template <int Dim>
 STRANDLAB_INLINE void finish_pair(const Frame<Dim>& frame, bool on_platen, Pair<Dim>& pair) {

@@ -216,6 +216,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"SamePlaceTwice", second_strand(R"({"x0":20,"x1":40})"), {kPlace, "overlaps strand 1"}},
         Fault{"Reversed", second_strand(R"({"x0":60,"x1":50})"), {kPlace, "x1 = 50", "larger than x0 = 60"}},
         Fault{"NoLength", second_strand(R"({"x0":60,"x1":60})"), {kPlace, "x1 = 60", "larger than x0 = 60"}},
+        Fault{"Sliver", second_strand(R"({"x0":60,"x1":60.009})"), {kPlace, "x1 = 60.009", "at least 0.01 mm long"}},
         Fault{"BelowResolution", second_strand(R"({"x0":60,"x1":60.0000001})"), {kPlace, "1e-6 mm"}},
         Fault{"LeftOfWindow", second_strand(R"({"x0":-0.5,"x1":10})"), {kPlace, "x0 = -0.5", "window 0 to 100"}},
         Fault{"RightOfWindow", second_strand(R"({"x0":60,"x1":100.01})"), {kPlace, "x1 = 100.01", "window 0 to 100"}},

@@ -1,0 +1,96 @@
+// What stops the engine: each failure names the step, the time, the strand and the place.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "strandlab/core/error.hpp"
+#include "strandlab/mpm/engine.hpp"
+#include "strandlab/panel/panel.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace strandlab::mpm {
+namespace {
+
+constexpr double kThick = 0.8, kLength = 2.4;  // mm
+
+Body<2> strand_of(double x0, double x1) {
+  mat::Mat mat;
+  mat.length_mm = kLength;
+  mat.layer_thickness_mm = kThick;
+  mat::Layer layer;
+  layer.role = "surface";
+  layer.strands.emplace_back();
+  layer.strands.back().x0_mm = x0;
+  layer.strands.back().x1_mm = x1;
+  mat.layers.push_back(layer);
+  return body_of(make_panel(mat, {{"surface", wood::library().front(), 0}}, kThick / 6, 6).strands.front());
+}
+
+Engine<2> engine_of(const std::vector<Body<2>>& bodies) {
+  Grid<2> grid;
+  grid.cell = Vec<2>::Constant(kThick / 3);
+  grid.origin = grid.lo = Vec<2>::Zero();
+  grid.hi = Vec<2>(kLength, kThick);
+  grid.sides[0] = {Side::kRoller, Side::kRoller};
+  Engine<2> engine(bodies, grid, Options{});
+  engine.set_platens({0, 0}, {kThick, 0});
+  return engine;
+}
+
+std::string failure_of(const Body<2>& body) {
+  return test::message_of<RunError>([&] { engine_of({body}).step(); });
+}
+
+void expect_says(const std::string& message, const std::vector<std::string>& parts) {
+  for (const auto& part : parts) EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
+TEST(Failure, InvertedParticle) {
+  auto body = strand_of(0, kLength);
+  body.F[40](1, 1) = -0.5;  // turned inside out
+  expect_says(failure_of(body),
+              {"step 0", "ms", "particle 40 of surface strand in row 1", " mm", "inverted (det F = -"});
+}
+
+TEST(Failure, StressThatIsNotANumber) {
+  auto body = strand_of(0, kLength);
+  body.stress[40][0] = std::numeric_limits<double>::quiet_NaN();
+  expect_says(failure_of(body), {"step 0", "surface strand in row 1", " mm", "stress is not finite"});
+}
+
+TEST(Failure, TimeStepThatFallsToNothing) {
+  auto body = strand_of(0, kLength);
+  for (auto& v : body.v) v[0] = 1;  // mm/s
+  auto engine = engine_of({body});
+  engine.scale_velocities(1e12);
+  expect_says(test::message_of<RunError>([&] { engine.step(); }),
+              {"step 0", "the time step fell to", "surface strand in row 1 at ("});
+}
+
+TEST(Failure, ParticleOutsideTheGrid) {
+  auto body = strand_of(0, kLength);
+  body.x[40][0] = 3 * kLength;
+  expect_says(test::message_of<RunError>([&] { engine_of({body}); }),
+              {"step 0", "particle 40 of surface strand in row 1", "left the grid"});
+}
+
+// A strand far thinner than a cell has no stable motion between its neighbours. It may fail, with a message; it
+// must never write outside its windows (the sanitizers watch).
+TEST(Failure, SliverNeverLeavesItsWindows) {
+  const std::vector<Body<2>> bodies{strand_of(0, 1.1), strand_of(1.1, 1.1003), strand_of(1.1003, kLength)};
+  auto engine = engine_of(bodies);
+  engine.set_platen_velocities(0, -64000);
+  try {
+    while (engine.state().top.position > 0.8 * kThick) engine.step();
+  } catch (const RunError& error) {
+    expect_says(error.what(), {"step", "strand in row 1"});
+    return;
+  }
+  EXPECT_LE(engine.state().top.position, 0.8 * kThick);
+}
+
+}  // namespace
+}  // namespace strandlab::mpm
