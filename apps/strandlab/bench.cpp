@@ -29,6 +29,7 @@ nlohmann::json to_json(const benchmark::Result& r) {
           {"plastic_fraction", r.plastic_fraction},
           {"fields_per_node", r.fields_per_node},
           {"bytes_per_particle", r.bytes_per_particle},
+          {"peak_memory_mb", r.peak_memory_mb},
           {"fma_gflops", r.machine.fma_gflops},
           {"triad_gb_s", r.machine.triad_gb_s},
           {"elastic_phases_ns", to_json(r.elastic_phases)},
@@ -55,7 +56,8 @@ void print_text(const benchmark::Result& r, const benchmark::Result& first) {
   fmt::print("  3D elastic             {:6.1f} ns\n", r.elastic_3d_ns_per_particle_step);
   fmt::print("  static solve           {:6.2f} s per 1/D_t at 3 elements, {:.2f} s at 6\n", r.static_solve_s,
              r.static_solve_fine_s);
-  fmt::print("  memory                 {:6.0f} bytes per particle\n", r.bytes_per_particle);
+  fmt::print("  memory                 {:6.0f} bytes per particle in the engine, peak of the process {:.0f} MB\n",
+             r.bytes_per_particle, r.peak_memory_mb);
   fmt::print("  split by phase, profiled (the clock adds a few ns), ns per particle-step, threads added up:\n");
   print_phases("elastic", r.elastic_phases);
   print_phases("mid-press", r.press_phases);

@@ -67,7 +67,7 @@ std::vector<report::PanelModulus> moduli_of(const Json& states) {
 void write_plots(const Journey& journey, const std::vector<report::PanelModulus>& moduli, Console& console) {
   const auto plots = journey.folder.file("plots");
   fs::create_directories(plots);
-  const auto theory = theory_moduli(theory_rows(journey.c), moduli);
+  const auto theory = theory_moduli(theory_rows(journey.c), moduli, journey.c.off_axis);
   theory_table(theory).write(journey.folder.file("theory.csv"));
   for (const auto kind : journey.c.test.kinds) {
     const std::string test = vtest::name(kind);

@@ -28,8 +28,7 @@ report::Curve curve_of(const std::map<double, double>& points) {
 }  // namespace
 
 std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows,
-                                         const std::vector<report::PanelModulus>& moduli) {
-  constexpr auto kOffAxis = theory::OffAxis::kExact;
+                                         const std::vector<report::PanelModulus>& moduli, wood::OffAxis off_axis) {
   const bool bridged = has_gaps_along(rows);
   std::vector<TheoryModulus> theory;
   for (const auto& m : moduli) {
@@ -37,13 +36,13 @@ std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows,
       theory.push_back({m.compaction, model, m.test, m.compliance_t_mm_per_MPa, modulus});
     };
     if (m.test != "tension") {
-      add(kLaminatedBeam, theory::bending_modulus_MPa(rows, m.compaction, kOffAxis));
+      add(kLaminatedBeam, theory::bending_modulus_MPa(rows, m.compaction, off_axis));
       continue;
     }
-    add(kRuleOfMixtures, theory::tension_modulus_MPa(rows, m.compaction, kOffAxis));
+    add(kRuleOfMixtures, theory::tension_modulus_MPa(rows, m.compaction, off_axis));
     if (!bridged) continue;
     const double compliance = std::max(m.compliance_t_mm_per_MPa, 0.0);  // as the virtual tests take it
-    add(kShearLag, theory::shear_lag_panel_MPa(rows, {}, compliance, m.compaction, kOffAxis));
+    add(kShearLag, theory::shear_lag_panel_MPa(rows, {}, compliance, m.compaction, off_axis));
   }
   return theory;
 }

@@ -21,10 +21,10 @@ struct TheoryModulus {
 };
 
 // For each simulated modulus those of the models: tension by rule of mixtures and, where rows along the panel have gaps
-// that strands bridge through glue, by shear-lag; bending as a laminated beam. Rows off the grain are held in plane
-// strain, as the simulated ones are. Throws as the models.
+// that strands bridge through glue, by shear-lag; bending as a laminated beam. Rows off the grain as the simulated
+// ones, by `off_axis`. Throws as the models.
 std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows,
-                                         const std::vector<report::PanelModulus>& moduli);
+                                         const std::vector<report::PanelModulus>& moduli, wood::OffAxis off_axis);
 
 // compaction, model, test, compliance_t_mm_per_MPa, modulus_MPa; one row per value.
 io::CsvTable theory_table(const std::vector<TheoryModulus>& moduli);

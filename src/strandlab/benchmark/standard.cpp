@@ -1,6 +1,7 @@
 #include "strandlab/benchmark/standard.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -20,6 +21,12 @@ const press::Resolution kUnitCells{3, 1, true};  // 1:1 cells, as the published 
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;  // given in KiB
 }
 
 double median(std::vector<double> v) {
@@ -188,6 +195,7 @@ std::vector<Result> run(const std::vector<int>& threads, int repeats,
     r.fields_per_node = timing.fields_per_node;
     r.static_solve_s = coarse;
     r.static_solve_fine_s = fine;
+    r.peak_memory_mb = peak_memory_mb();
     results.push_back(r);
   }
   return results;

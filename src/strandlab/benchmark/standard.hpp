@@ -24,7 +24,8 @@ struct Result {
   double fields_per_node = 0;      // mid-press
   double static_solve_s = 0;       // per 1/D_t: assembly, factor, solves; 3 elements through a strand
   double static_solve_fine_s = 0;  // at 6 elements through a strand
-  double bytes_per_particle = 0;
+  double bytes_per_particle = 0;   // held by the engine
+  double peak_memory_mb = 0;       // of the whole process, static solves included
   Phases elastic_phases, press_phases;
   MachineLimits machine;
 };

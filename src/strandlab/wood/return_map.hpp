@@ -45,6 +45,7 @@ struct ScalarOps {
 template <class T>
 struct Flow {
   T mu, q, dq, volume, dvolume;
+  T trial_volume;  // ln J_e at mu = 0
 };
 
 // The hardening that a flow brings: history variable, radius, and d radius / d mu.
@@ -67,6 +68,11 @@ struct HillLaw {
   }
 
   template <class Ops, int N, class T>
+  [[gnu::always_inline]] static T kept_radius(const YieldModes<N>& /*m*/, const Hardened<T>& h) {
+    return h.radius;
+  }
+
+  template <class Ops, int N, class T>
   [[gnu::always_inline]] static Hardened<T> first(const YieldModes<N>& m, const Flow<T>& flow, const T& alpha0,
                                                   const T& radius0, const T& J) {
     return at<Ops, N, T>(m, flow, alpha0, radius0, J);
@@ -80,14 +86,51 @@ struct CrushingLaw {
 
   template <class Ops, int N, class T>
   [[gnu::always_inline]] static Hardened<T> at(const YieldModes<N>& m, const Flow<T>& flow, const T& x0,
-                                               const T& /*radius0*/, const T& J) {
-    const T J_p = (1.0 - m.crushing.start) * J * Ops::exponential(-flow.volume);
+                                               const T& radius0, const T& J) {
+    const T J_p = (1.0 - m.crushing.start) * J * Ops::exponential(-flow.trial_volume) *
+                  small_exponential<Ops, T>(flow.trial_volume - flow.volume);
     const auto crushes = 1.0 - J_p > x0;
     Hardened<T> h;
     h.history = Ops::select(crushes, 1.0 - J_p, x0);
-    h.radius = Ops::crushing_radius(m.crushing, h.history, h.slope);
+    if (!near<Ops, T>(m.crushing, h.history, x0, radius0, h))
+      h.radius = Ops::crushing_radius(m.crushing, h.history, h.slope);
     h.slope = Ops::select(crushes, h.slope * J_p * flow.dvolume, T{});
     return h;
+  }
+
+  // exp(e) for what a step changes, by its series where it is small enough.
+  template <class Ops, class T>
+  [[gnu::always_inline]] static T small_exponential(const T& e) {
+    if (Ops::any(Ops::absolute(e) > 0.01)) return Ops::exponential(e);
+    return 1.0 + e * (1.0 + e * (1. / 2 + e * (1. / 6 + e * (1. / 24 + e * (1. / 120 + e * (1. / 720))))));
+  }
+
+  // What is kept: the radius that the history variable alone gives, so that a restart finds it again to the bit.
+  template <class Ops, int N, class T>
+  [[gnu::always_inline]] static T kept_radius(const YieldModes<N>& m, const Hardened<T>& h) {
+    T slope;
+    return Ops::crushing_radius(m.crushing, h.history, slope);
+  }
+
+  // H and its derivative a small step from x0, where H is known: with a = dx/x0 and b = dx/(x_L - x0) the power grows
+  // by exp(m (ln(1 + a) - ln(1 - b))), here by their series, to 1e-13 of H. False where a step is larger than they
+  // bear.
+  template <class Ops, class T>
+  [[gnu::always_inline]] static bool near(const CrushingHardening& c, const T& x, const T& x0, const T& radius0,
+                                          Hardened<T>& h) {
+    const T inverse_x = 1.0 / x0, inverse_room = 1.0 / (c.limit - x0);
+    const T a = (x - x0) * inverse_x, b = (x - x0) * inverse_room;  // at x0 = 0 and beyond the limit neither is small
+    const auto small = (a >= 0.0) & (a < 0.01) & (b >= 0.0) & (b < 0.01);
+    if (Ops::any(Ops::select(small, T{}, T{} + 1.0) > 0.5)) return false;
+    const T logarithm = a * (1.0 - a * (1. / 2 - a * (1. / 3 - a * (1. / 4 - a * (1. / 5))))) +
+                        b * (1.0 + b * (1. / 2 + b * (1. / 3 + b * (1. / 4 + b * (1. / 5)))));
+    const T e = c.exponent * logarithm;
+    const T growth = 1.0 + e * (1.0 + e * (1. / 2 + e * (1. / 6 + e * (1. / 24 + e * (1. / 120 + e * (1. / 720))))));
+    const T power = (radius0 - 1.0 - c.h1 * x0) * growth;
+    h.radius = 1.0 + c.h1 * x + power;
+    h.slope = c.h1 + power * (c.exponent * c.limit) * (inverse_x * (1.0 - a * (1.0 - a))) *
+                         (inverse_room * (1.0 + b * (1.0 + b)));  // 1/x and 1/(x_L - x) to 1e-6: it only steers
+    return true;
   }
 
   // Before any flow, from what is known: the slope need not be exact, Newton's method corrects it.
@@ -104,9 +147,10 @@ struct CrushingLaw {
 
 // The flow mu from trial modes z: z_i(mu) = z_i/(1 + mu lambda_i). d = 1/(1 + mu lambda).
 template <class Law, class Ops, int N, class T>
-[[gnu::always_inline]] inline Flow<T> flow_at(const YieldModes<N>& m, const T (&z)[N], const T (&d)[N], const T& mu) {
+[[gnu::always_inline]] inline Flow<T> flow_at(const YieldModes<N>& m, const T (&z)[N], const T (&d)[N], const T& mu,
+                                              const T& trial_volume) {
   T s2 = T{}, s3 = T{};
-  Flow<T> flow{mu, T{}, T{}, T{}, T{}};
+  Flow<T> flow{mu, T{}, T{}, T{}, T{}, trial_volume};
   for (int i = 0; i < N; ++i) {
     const T zi = z[i] * d[i];
     const T t = m.lambda[i] * zi * zi;
@@ -152,7 +196,8 @@ template <class Law, class Ops, int N>
   T d[N];
   for (int i = 0; i < N; ++i) d[i] = T{} + 1.0;
   T lo = T{}, hi = T{} + 1e300;
-  Flow<T> flow = flow_at<Law, Ops, N, T>(m, z, d, T{});
+  Flow<T> flow = flow_at<Law, Ops, N, T>(m, z, d, T{}, T{});
+  flow.trial_volume = flow.volume;
   Hardened<T> hard = Law::template first<Ops, N, T>(m, flow, history, radius, J);
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     const T r = flow.q - J * hard.radius;
@@ -168,7 +213,7 @@ template <class Law, class Ops, int N>
     if (iteration > kNewtonAlone && iteration % 2 == 1) next = middle;
     const T mu = Ops::select(converged, flow.mu, next);
     for (int i = 0; i < N; ++i) d[i] = 1.0 / (1.0 + mu * m.lambda[i]);
-    flow = flow_at<Law, Ops, N, T>(m, z, d, mu);
+    flow = flow_at<Law, Ops, N, T>(m, z, d, mu, flow.trial_volume);
     hard = Law::template at<Ops, N, T>(m, flow, history, radius, J);
   }
   for (int i = 0; i < N; ++i) z[i] = z[i] * d[i];
@@ -178,7 +223,7 @@ template <class Law, class Ops, int N>
     tau[i] = Ops::select(yields, t, tau[i]);
   }
   history = Ops::select(yields, hard.history, history);
-  radius = Ops::select(yields, hard.radius, radius);
+  radius = Ops::select(yields, Law::template kept_radius<Ops, N, T>(m, hard), radius);
   return Ops::select(yields, flow.mu * flow.q * flow.q, T{});
 }
 
