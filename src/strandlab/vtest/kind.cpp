@@ -27,6 +27,7 @@ const char* name(Kind kind) {
 
 std::vector<std::string> kind_names() {
   std::vector<std::string> names;
+  names.reserve(std::size(kKinds));
   for (const Kind kind : kKinds) names.emplace_back(name(kind));
   return names;
 }
