@@ -76,6 +76,7 @@ bool is_installed(const std::string& program) {
 void run_ffmpeg(std::vector<std::string> arguments, const fs::path& log) {
   arguments.insert(arguments.begin(), {"ffmpeg", "-nostdin", "-y", "-loglevel", "error"});
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (auto& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;

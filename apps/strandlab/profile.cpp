@@ -186,6 +186,7 @@ void profile_runs(const Arguments& a) {
     throw InputError(
         fmt::format("{} holds results; --force overwrites them, -o names another folder", folder.string()));
   std::vector<report::Replicate> replicates;
+  replicates.reserve(runs.size());
   for (const auto& run : runs) replicates.push_back(profiles_of(run, a.bins));
   const auto means = means_of(replicates);
   const auto comparison = compare(a, means);

@@ -17,7 +17,7 @@ namespace strandlab::app {
 
 std::filesystem::path write_report_page(const std::filesystem::path& run_folder, const std::filesystem::path& out) {
   const auto page = report::empty_page();
-  const auto file = out.empty() ? run_folder / "report.html" : out;
+  auto file = out.empty() ? run_folder / "report.html" : out;
   write_atomically(file, report::filled_page(page, report::report_data(run_folder)));
   return file;
 }

@@ -266,7 +266,7 @@ Key constant(const std::string& name, const std::string& unit, Range range, std:
       name, unit, range, std::move(help), [member](auto& m) -> auto& { return m.material.*member; });
 }
 
-Key crushing_constant(const std::string& name, const std::string& unit, Range range, std::string help,
+Key crushing_constant(const std::string& name, const std::string& unit, Range range, const std::string& help,
                       double wood::Crushing::*member) {
   return material_key(
       "crushing_" + name, unit, range,
