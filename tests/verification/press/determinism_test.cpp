@@ -227,7 +227,7 @@ TEST(Press, EnergyBalances) {
 }
 
 // Meetings with platens and among strands only take energy. Core strands with a free end, which the platens fold over,
-// at a coarse and a fine time step: what contact has taken never comes back.
+// at a coarse and a fine time step: what contact has taken does not come back, but for the slow return of overlaps.
 TEST(Press, ContactNeverGivesEnergyBack) {
   Panel<2> panel;
   panel.length_mm = 20;
