@@ -7,23 +7,9 @@ import random
 import subprocess
 import time
 
-from program import DONE, FAILED, PROGRAM, SOURCE, check, files, finish, scratch, strandlab
+from program import DONE, FAILED, PROGRAM, SMALL_CASE, SOURCE, check, files, finish, scratch, strandlab
 
-# Two rows of 5 mm pressed to 4 %: a second of work.
-CASE = """[mat]
-length_mm = 5
-rows = ["surface", "core"]
-[kinds.core]
-length_mm = 2
-length_sd_mm = 0.2
-gap_mm = 1
-gap_sd_mm = 0.2
-[press]
-speed_m_s = 8
-compactions = [0, 0.02, 0.04]
-[glue]
-compliance_t_mm_per_MPa = [0, 0.0105]
-[run]
+CASE = SMALL_CASE + """[run]
 checkpoint_interval_s = 0.05
 """
 

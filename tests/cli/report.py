@@ -6,25 +6,10 @@ import pathlib
 import shutil
 import stat
 
-from program import DONE, FAILED, check, expect_bad_input, finish, scratch, strandlab
+from program import DONE, FAILED, SMALL_CASE, check, expect_bad_input, finish, scratch, strandlab
 
 # Names are the user's: this one wants to be markup.
 HOSTILE = "</script><script>alert(1)</script><b>\"'&\U0001fab5" + "x" * 300
-
-CASE = """[mat]
-length_mm = 5
-rows = ["surface", "core"]
-[kinds.core]
-length_mm = 2
-length_sd_mm = 0.2
-gap_mm = 1
-gap_sd_mm = 0.2
-[press]
-speed_m_s = 8
-compactions = [0, 0.02, 0.04]
-[glue]
-compliance_t_mm_per_MPa = [0, 0.0105]
-"""
 
 
 def data_of(page):
@@ -34,7 +19,7 @@ def data_of(page):
 
 
 def made_with_the_run_and_again():
-    pathlib.Path("a.toml").write_text(CASE, encoding="utf-8")
+    pathlib.Path("a.toml").write_text(SMALL_CASE, encoding="utf-8")
     result = strandlab("run", "a.toml", "-o", "out")
     check(result.returncode == DONE and "report.html" in result.stdout, f"run says where the report is: {result.stdout}{result.stderr}")
     first = pathlib.Path("out/report.html").read_bytes()
@@ -67,7 +52,7 @@ def without_frames():
 
 
 def steps_that_are_not_done():
-    pathlib.Path("b.toml").write_text(CASE, encoding="utf-8")
+    pathlib.Path("b.toml").write_text(SMALL_CASE, encoding="utf-8")
     check(strandlab("mat", "b.toml", "-o", "half").returncode == DONE, "mat")
     check(strandlab("report", "half").returncode == DONE, "report of a mat")
     run = data_of("half/report.html")["run"]

@@ -5,8 +5,8 @@ import pathlib
 import shutil
 import subprocess
 
-from program import DONE, SOURCE, check, finish, scratch, strandlab
-from report import CASE, HOSTILE, data_of
+from program import DONE, SMALL_CASE, SOURCE, check, finish, scratch, strandlab
+from report import HOSTILE, data_of
 
 MARK = '<script type="application/json" id="data">'
 
@@ -39,7 +39,7 @@ def hostile_page(page):
 
 if __name__ == "__main__":
     with scratch():
-        pathlib.Path("a.toml").write_text(CASE, encoding="utf-8")
+        pathlib.Path("a.toml").write_text(SMALL_CASE, encoding="utf-8")
         result = strandlab("run", "a.toml", "-o", "out")
         check(result.returncode == DONE, f"run: {result.stderr}")
         pathlib.Path("hostile.html").write_text(hostile_page("out/report.html"), encoding="utf-8")

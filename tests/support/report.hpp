@@ -9,27 +9,13 @@
 // sentence is unique within its test: it is the key of the record. Reporting judges nothing; EXPECT_* beside it does.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cstdio>
-#include <string>
+#include "support/record.hpp"
 
 namespace strandlab {
-namespace test {
 
-// `measured` in `unit` ("" for a ratio); `allowed` as a reader of the book wants to see it.
-inline void record(const std::string& what, double measured, const std::string& allowed, const std::string& unit = "") {
-  char number[32];
-  std::snprintf(number, sizeof number, "%.4g", measured);
-  testing::Test::RecordProperty("report:" + what, std::string(number) + "\t" + unit + "\t" + allowed);
-}
-
-}  // namespace test
-
-#ifndef STRANDLAB_TEST_OF_REPORT  // the namespace strandlab::report takes the name: use test::record() there
+// As test::record().
 inline void report(const std::string& what, double measured, const std::string& allowed, const std::string& unit = "") {
   test::record(what, measured, allowed, unit);
 }
-#endif
 
 }  // namespace strandlab

@@ -10,8 +10,8 @@
 namespace strandlab {
 namespace {
 
-// One strand of 7 x 6 points, 7 mm by 1.2 mm, undeformed.
-Panel<2> one_strand() {
+// One strand of 7 mm by 1.2 mm, undeformed, with six points through it; along it they are about `spacing_mm` apart.
+Panel<2> one_strand(double spacing_mm = 1) {
   mat::Mat mat;
   mat.length_mm = 7;
   mat.layer_thickness_mm = 1.2;
@@ -19,7 +19,7 @@ Panel<2> one_strand() {
   mat.layers[0].role = "surface";
   mat.layers[0].strands.resize(1);
   mat.layers[0].strands[0].x1_mm = 7;
-  return make_panel(mat, {{"surface", wood::library().front(), 0}}, 1, 6);
+  return make_panel(mat, {{"surface", wood::library().front(), 0}}, spacing_mm, 6);
 }
 
 // Every point moved by x -> map(x), its deformation gradient by central differences.
@@ -67,14 +67,7 @@ TEST(Lumped, HomogeneousDeformationIsExact) {
 // Wave of 0.2 mm over 7 mm: sampled with 3.5 points a millimetre and lumped by two it keeps its area to 0.1 % (chords
 // of length h cut (k h)^2/24 of a wave of wave number k: (0.9 * 0.57)^2/24 = 1 %, of which areas see the square).
 TEST(Lumped, UndulatingStrandKeepsItsArea) {
-  mat::Mat mat;
-  mat.length_mm = 7;
-  mat.layer_thickness_mm = 1.2;
-  mat.layers.resize(1);
-  mat.layers[0].role = "surface";
-  mat.layers[0].strands.resize(1);
-  mat.layers[0].strands[0].x1_mm = 7;
-  auto panel = make_panel(mat, {{"surface", wood::library().front(), 0}}, 0.2857, 6);
+  auto panel = one_strand(0.2857);
   deform(panel, [](const Vec<2>& x) {
     return Vec<2>(x[0], x[1] * (0.8 + 0.1 * std::sin(0.9 * x[0])) + 0.2 * std::sin(0.9 * x[0]));
   });

@@ -4,9 +4,7 @@
 #include "strandlab/mat/form.hpp"
 #include "strandlab/press/press.hpp"
 #include "strandlab/report/morphology.hpp"
-
-#define STRANDLAB_TEST_OF_REPORT
-#include "support/report.hpp"
+#include "support/record.hpp"
 
 namespace strandlab::report {
 namespace {
