@@ -182,6 +182,34 @@ TEST(CrushingReturn, AnyStrainIncrementUpToFivePerCent) {
   EXPECT_GT(dense, 1000);
 }
 
+// Small steps find H by its series about the x before, to 1e-13: the point returned lies on the surface of the
+// definition within that and the 1e-12 at which the return stops, from x = .1 % to 99.5 % of the limit.
+TEST(CrushingReturn, SmallStepsEndOnTheSurface) {
+  RandomStream random(4, 0);
+  int crushed = 0;
+  double worst = 0;
+  for (const auto& material : all_kinds()) {
+    for (int trial = 0; trial < 1000; ++trial) {
+      Point<6> point(material);
+      const auto& law = material.crushing;
+      const double share = std::exp(std::log(1e-3) + random.uniform() * std::log(0.995 / 1e-3));
+      point.history = std::max(law.start, law.limit * share);
+      point.ln_J = std::log((1 - point.history) / (1 - law.start));
+      point.radius = point.hardened();
+      Components<6> squeeze = -random_strain(random, 1).cwiseAbs();
+      point.advance(0.1 * squeeze);  // onto the surface
+      for (int i = 0; i < 3; ++i) {
+        const double before = point.history;
+        const double work = point.advance(std::pow(10, -6 + 3 * random.uniform()) * squeeze);
+        crushed += point.history > before;
+        if (work > 0) worst = std::max(worst, std::abs(point.f()) / point.radius);
+      }
+    }
+  }
+  EXPECT_LT(worst, 2e-12);
+  EXPECT_GT(crushed, 10000);
+}
+
 // Paths on which the stress keeps its direction, here strain along one mode of the simultaneous diagonalisation: one
 // backward Euler step of 5 % is as good as 1000 substeps.
 TEST(CrushingReturn, OneStepOfFivePerCentEqualsAThousand) {

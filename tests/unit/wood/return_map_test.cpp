@@ -130,7 +130,7 @@ TEST(ReturnMap, AnyStrainIncrementUpToFivePerCent) {
       ++yielded;
       const double growth = point.history - before.history;
       ASSERT_GT(growth, 0);
-      ASSERT_NEAR(growth, flow.mu * flow.q / point.modes.Y, 1e-9 * growth + 1e-14);
+      ASSERT_NEAR(growth, flow.mu * flow.q * point.modes.inverse_Y, 1e-9 * growth + 1e-14);
     }
   }
   EXPECT_GT(yielded, 10000);
