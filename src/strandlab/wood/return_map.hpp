@@ -218,8 +218,8 @@ template <class Law, class Ops, int N>
     if (!Ops::any(yields & !converged)) break;
     lo = Ops::select(r > 0.0, flow.mu, lo);
     hi = Ops::select(r > 0.0, hi, flow.mu);
-    // Newton's method on g = 1/q - 1/(J radius) = 0, its step made longer by what the curvature of 1/q asks for (Halley's
-    // method with the hardening straight).
+    // Newton's method on g = 1/q - 1/(J radius) = 0, its step made longer by what the curvature of 1/q asks for
+    // (Halley's method with the hardening straight).
     const T square = J * hard.radius * hard.radius;
     const T inverse = 1.0 / (hard.slope * flow.s2 + flow.s3 * square);  // 1/(q^3 J radius^2 dg/dmu)
     const T step = r * hard.radius * inverse;                           // Newton's, over q^2
