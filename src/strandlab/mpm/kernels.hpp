@@ -1,5 +1,5 @@
-// The engine's inner loops, one function per phase. Plain data only: kernels.cpp is compiled once per instruction set
-// and must not share inline code with the rest of the program.
+// The engine's inner loops, one function per phase. Plain data only: kernels.cpp, which holds what is in kernels/, is
+// compiled once per instruction set and must not share inline code with the rest of the program.
 #pragma once
 
 #include "strandlab/wood/return_map.hpp"

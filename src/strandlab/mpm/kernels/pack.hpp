@@ -1,6 +1,6 @@
 // A pack of eight doubles, one lane per particle. GCC vector extension: compiles to whatever the target has.
-// Included only by kernels.cpp, which is compiled once per instruction set; everything lives in that build's own
-// namespace.
+// Included, as all of this folder, only by kernels.cpp, which is compiled once per instruction set; everything lives in
+// that build's own namespace.
 #pragma once
 
 #include "strandlab/wood/return_map.hpp"
@@ -21,6 +21,14 @@ STRANDLAB_INLINE Pack load(const double* p) {
 }
 STRANDLAB_INLINE void store(double* p, const Pack& a) {
   __builtin_memcpy(p, &a, sizeof a);
+}
+template <int N>
+STRANDLAB_INLINE void load_packs(const double* from, Pack (&to)[N]) {
+  for (int i = 0; i < N; ++i) to[i] = load(from + i * kLanes);
+}
+// Asks for the next block while this one is worked on; a block is too long for the hardware to see the stream.
+STRANDLAB_INLINE void prefetch(const double* block, long stride) {
+  for (long i = 0; i < stride; i += kLanes) __builtin_prefetch(block + stride + i);
 }
 STRANDLAB_INLINE Pack splat(double a) {
   return a - Pack{};

@@ -1,0 +1,244 @@
+// Contact at one node: pairs of opposed faces, of bodies and of bodies with platens, and the impulses between them.
+#pragma once
+
+#include "strandlab/mpm/kernels.hpp"
+#include "strandlab/mpm/kernels/pack.hpp"
+
+namespace strandlab::mpm::STRANDLAB_ISA {
+namespace {
+
+template <int Dim>
+STRANDLAB_INLINE double dot(const double* a, const double* b) {
+  double s = a[0] * b[0];
+  for (int i = 1; i < Dim; ++i) s += a[i] * b[i];
+  return s;
+}
+
+// One face of a field at a node: area-weighted outward normal N = W n, and W times the signed distance from the node to
+// the face along it.
+template <int Dim>
+struct NodeFace {
+  const double* N;
+  double W, size2, distance_W;
+};
+
+template <int Dim>
+struct Meeting {  // a velocity field at a node where several meet
+  double inverse_mass;
+  double start[Dim];  // velocity at the start of the step, for the work of the impulses
+  double trial[Dim];  // after forces, before contact
+  double v[Dim];      // now
+  double* record;
+  int faces;
+  NodeFace<Dim> face[kMaxFaces];
+  int partners;
+};
+
+template <int Dim>
+struct Pair {
+  int a, b;
+  double n[Dim];  // from a to b
+  double gap;     // between the faces, negative where they overlap
+  double target;  // separation velocity that just keeps the faces from crossing
+  double friction;
+  double normal;  // impulse so far, compression positive
+  double shear[Dim];
+  double reduced;  // mass
+};
+
+template <int Dim>
+STRANDLAB_INLINE void find_faces(const PencilField& field, unsigned faces, int row, const double* x,
+                                 const double* surface, Meeting<Dim>& m) {
+  m.faces = 0;
+  for (; faces; faces &= faces - 1) {
+    const int f = __builtin_ctz(faces);
+    const double* s = surface + kSurfaceRecord<Dim> * static_cast<long>(field.face[f].base + row);
+    const double W = s[Dim];
+    if (!(W > 0)) continue;
+    const double size2 = dot<Dim>(s, s);
+    if (size2 < 0.25 * W * W) continue;  // normals cancel: an edge folded onto a symmetry plane
+    m.face[m.faces++] = {s, W, size2, s[Dim + 1] - dot<Dim>(s, x)};
+  }
+}
+
+// Of all pairs of faces that oppose each other (by more than 120 degrees) the one that is furthest apart separates the
+// bodies. Returns false if there is none or the gap is too wide to close in a step. pair.n is not yet normalised: see
+// finish_pair.
+template <int Dim>
+STRANDLAB_INLINE bool find_pair(const Meeting<Dim>& a, const Meeting<Dim>& b, double reach, Pair<Dim>& pair) {
+  pair.gap = -1e300;
+  const NodeFace<Dim>*best_a = nullptr, *best_b = nullptr;
+  for (int i = 0; i < a.faces; ++i) {
+    for (int j = 0; j < b.faces; ++j) {
+      const NodeFace<Dim>&fa = a.face[i], &fb = b.face[j];
+      const double d = dot<Dim>(fa.N, fb.N);
+      if (d > 0 || d * d < 0.25 * fa.size2 * fb.size2) continue;
+      const double gap = -(fa.distance_W * fb.W + fb.distance_W * fa.W) / (fa.W * fb.W);
+      if (gap > pair.gap) {
+        pair.gap = gap;
+        best_a = &fa;
+        best_b = &fb;
+      }
+    }
+  }
+  if (!best_a || pair.gap > reach) return false;
+  for (int d = 0; d < Dim; ++d) pair.n[d] = best_a->N[d] * best_b->W - best_b->N[d] * best_a->W;
+  return true;
+}
+
+// Part of an overlap that is pushed back while a wave crosses a cell, and the deepest overlap that counts, in cells. At
+// a platen the impulses stop the mean motion of the nodes, not the face itself, which would creep through over
+// thousands of steps; returning so small an overlap so slowly costs no energy worth the name. Between bodies none is
+// pushed back: overlaps of ends that met at speed would turn into elastic energy.
+inline constexpr double kPlatenReturn = 0.05;
+inline constexpr double kDeepestReturn = 0.1;
+
+template <int Dim>
+STRANDLAB_INLINE void finish_pair(const Frame<Dim>& frame, bool on_platen, Pair<Dim>& pair) {
+  const double inverse = 1 / __builtin_sqrt(dot<Dim>(pair.n, pair.n));
+  for (int d = 0; d < Dim; ++d) pair.n[d] *= inverse;
+  const double deepest = kDeepestReturn * frame.cell[Dim - 1];
+  const double overlap = -pair.gap < deepest ? -pair.gap : deepest;
+  pair.target = pair.gap > 0 ? -pair.gap / frame.dt : on_platen ? kPlatenReturn * overlap / frame.transit : 0.0;
+}
+
+// One pass over the pairs at a node, all from the same velocities: impulses so far are corrected towards
+// [v].n >= target with a compressive impulse, and Coulomb friction. Masses are split among a body's partners
+// (Tonge, Benevolenski & Voroshilov 2012), so that simultaneous corrections do not overshoot. Returns the largest
+// change of velocity.
+template <int Dim>
+STRANDLAB_INLINE double contact_pass(Meeting<Dim>* m, int fields, Pair<Dim>* pairs, int count) {
+  double change[3 * kMaxFields][Dim] = {};  // images among them
+  for (int p = 0; p < count; ++p) {
+    Pair<Dim>& pair = pairs[p];
+    const Meeting<Dim>&a = m[pair.a], &b = m[pair.b];
+    double rel[Dim];
+    for (int d = 0; d < Dim; ++d) rel[d] = b.v[d] - a.v[d];
+    const double vn = dot<Dim>(rel, pair.n);
+    double normal = pair.normal + pair.reduced * (pair.target - vn);
+    normal = normal > 0 ? normal : 0;
+    double shear[Dim], size2 = 0;
+    for (int d = 0; d < Dim; ++d) {
+      shear[d] = pair.shear[d] - pair.reduced * (rel[d] - vn * pair.n[d]);
+      size2 += shear[d] * shear[d];
+    }
+    const double limit = pair.friction * normal;
+    const double scale = size2 > limit * limit ? limit / __builtin_sqrt(size2) : 1;
+    for (int d = 0; d < Dim; ++d) {
+      shear[d] *= scale;
+      const double dJ = (normal - pair.normal) * pair.n[d] + shear[d] - pair.shear[d];
+      change[pair.a][d] -= dJ * a.inverse_mass;
+      change[pair.b][d] += dJ * b.inverse_mass;
+      pair.shear[d] = shear[d];
+    }
+    pair.normal = normal;
+  }
+  double largest = 0;
+  for (int i = 0; i < fields; ++i) {
+    double c2 = 0;
+    for (int d = 0; d < Dim; ++d) {
+      m[i].v[d] += change[i][d];
+      c2 += change[i][d] * change[i][d];
+    }
+    largest = c2 > largest ? c2 : largest;
+  }
+  return __builtin_sqrt(largest);
+}
+
+// The impulses of all pairs at a node, then the velocities of its first `real` fields (images follow them) and the
+// energies lost.
+template <int Dim>
+STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* pairs, int count,
+                              const Frame<Dim>& frame, PencilResult& result) {
+  for (int i = 0; i < fields; ++i) {
+    m[i].inverse_mass = 1 / m[i].record[7];
+    m[i].partners = 0;
+    const bool image = i >= real;
+    for (int d = 0; d < Dim; ++d) {
+      const double sign = image && d < Dim - 1 ? -1 : 1;  // see has_mirror
+      m[i].trial[d] = m[i].v[d] = sign * m[i].record[d];
+      m[i].start[d] = sign * (m[i].record[d] - m[i].record[Dim + d]);
+    }
+  }
+  for (int p = 0; p < count; ++p) {
+    finish_pair<Dim>(frame, pairs[p].b >= real, pairs[p]);
+    ++m[pairs[p].a].partners;
+    ++m[pairs[p].b].partners;
+    pairs[p].normal = 0;
+    for (int d = 0; d < Dim; ++d) pairs[p].shear[d] = 0;
+  }
+  for (int p = 0; p < count; ++p) {
+    const Meeting<Dim>&a = m[pairs[p].a], &b = m[pairs[p].b];
+    pairs[p].reduced = 1 / (a.partners * a.inverse_mass + b.partners * b.inverse_mass);
+  }
+  const int passes = count == 1 ? 1 : 40;
+  double first = 0;
+  for (int k = 0; k < passes; ++k) {
+    const double change = contact_pass<Dim>(m, fields, pairs, count);
+    if (k == 0) first = change;
+    if (change <= 1e-6 * first) break;
+  }
+  // Work of each impulse on the mean relative velocity of the step (all its forces included): what the pair lost.
+  for (int p = 0; p < count; ++p) {
+    const Pair<Dim>& pair = pairs[p];
+    const Meeting<Dim>&a = m[pair.a], &b = m[pair.b];
+    const bool on_platen = pair.b >= real;
+    const int k = pair.n[Dim - 1] > 0;
+    double mean[Dim];
+    for (int d = 0; d < Dim; ++d) {
+      const double other = !on_platen ? 0.5 * (b.v[d] + b.start[d]) : d == Dim - 1 ? frame.platen[k].velocity : 0.0;
+      mean[d] = other - 0.5 * (a.v[d] + a.start[d]);
+    }
+    result.contact -= pair.normal * dot<Dim>(mean, pair.n);
+    result.friction -= dot<Dim>(pair.shear, mean);
+    if (on_platen) {
+      result.platen_impulse[k] += pair.normal;
+      result.platen_work -= pair.normal * pair.n[Dim - 1] * frame.platen[k].velocity;
+    }
+  }
+  for (int i = 0; i < real; ++i) {
+    const double half_mass = 0.5 * m[i].record[7];
+    for (int d = 0; d < Dim; ++d) {
+      const double change = m[i].v[d] - m[i].trial[d], free = m[i].record[Dim + d];
+      result.kinetic_change += half_mass * change * (2 * free + change);  // momentum_balance booked dv = free
+      result.force_change += half_mass * change * free;
+      result.external_work += 2 * half_mass * frame.dt * frame.gravity[d] * change;
+      m[i].record[d] = m[i].v[d];
+      m[i].record[Dim + d] = free + change;
+    }
+  }
+}
+
+// The mirror image of a field in platen k; false where it has no mass. In contact its tangential motion counts
+// reversed, so that a pair that sticks stops at the wall while one that slides feels only the friction allowed.
+template <int Dim>
+STRANDLAB_INLINE bool has_mirror(const PencilField& field, int k, int row, const GridView<Dim>& grid, Meeting<Dim>& m) {
+  if (row < field.mirror[k].row_lo || row >= field.mirror[k].row_hi) return false;
+  m.record = grid.nodes + kRecord * static_cast<long>(field.mirror[k].base + row);
+  return m.record[7] > 0;
+}
+
+// Contact of a field with platen k: the pair of the field (a) and its image (b). The gap to the image is twice that to
+// the wall. Of the faces that look at the wall the one furthest from it counts: where two of them meet, at a strand's
+// end, the body lies behind both, and the plane of one reaches beyond the body.
+template <int Dim>
+STRANDLAB_INLINE bool platen_pair(const Meeting<Dim>& field, const Frame<Dim>& frame, int k, double node_height,
+                                  double reach, Pair<Dim>& pair) {
+  const double direction = k == 0 ? -1 : 1;  // from the field to the platen
+  pair.gap = -1e300;
+  for (int f = 0; f < field.faces; ++f) {
+    const NodeFace<Dim>& face = field.face[f];
+    const double along = face.N[Dim - 1] * direction;
+    if (along < 0 || along * along < 0.25 * face.size2) continue;
+    const double to_wall =
+        (frame.platen[k].position - node_height) * direction - face.distance_W * along / (face.W * face.W);
+    pair.gap = 2 * to_wall > pair.gap ? 2 * to_wall : pair.gap;
+  }
+  if (pair.gap < -1e299 || pair.gap > reach) return false;
+  for (int d = 0; d < Dim; ++d) pair.n[d] = 0;
+  pair.n[Dim - 1] = direction;
+  return true;
+}
+
+}  // namespace
+}  // namespace strandlab::mpm::STRANDLAB_ISA

@@ -1,0 +1,169 @@
+// Momentum balance at the nodes of a pencil, then contact row by row.
+#pragma once
+
+#include "strandlab/mpm/kernels.hpp"
+#include "strandlab/mpm/kernels/contact.hpp"
+#include "strandlab/mpm/kernels/encounters.hpp"
+#include "strandlab/mpm/kernels/lap.hpp"
+#include "strandlab/mpm/kernels/pack.hpp"
+
+namespace strandlab::mpm::STRANDLAB_ISA {
+namespace {
+
+// A node record before the update, {m, p, f, ...}, as {p, f, ...} and as {f, ...}.
+template <int Dim>
+STRANDLAB_INLINE Pack momentum_and_force(const Pack& r) {
+  const Pack zero{};
+  if constexpr (Dim == 2)
+    return __builtin_shufflevector(r, zero, 1, 2, 3, 4, 8, 8, 8, 8);
+  else
+    return __builtin_shufflevector(r, zero, 1, 2, 3, 4, 5, 6, 8, 8);
+}
+template <int Dim>
+STRANDLAB_INLINE Pack second_vector(const Pack& r) {
+  const Pack zero{};
+  if constexpr (Dim == 2)
+    return __builtin_shufflevector(r, zero, 2, 3, 8, 8, 8, 8, 8, 8);
+  else
+    return __builtin_shufflevector(r, zero, 3, 4, 5, 8, 8, 8, 8, 8);
+}
+
+// What a record is multiplied with and what is added to it: {v, dv} = scale {p, f}/m + gravity.
+struct NodeUpdate {
+  Pack scale, gravity;
+};
+// On a roller plane the normal component is zero. A mirror image feels gravity reversed.
+template <int Dim>
+STRANDLAB_INLINE NodeUpdate node_update(const Pencil& pencil, const Frame<Dim>& frame, double gravity_sign) {
+  NodeUpdate u{};
+  for (int d = 0; d < Dim; ++d) {
+    const bool on_wall = d < Dim - 1 && (pencil.index[d] == frame.wall[d][0] || pencil.index[d] == frame.wall[d][1]);
+    if (on_wall) continue;
+    u.scale[d] = 1;
+    u.scale[Dim + d] = frame.dt;
+    u.gravity[Dim + d] = frame.dt * frame.gravity[d] * (d == Dim - 1 ? gravity_sign : 1);
+  }
+  return u;
+}
+
+// v = p/m + dv, dv = dt f/m + dt g: the record becomes {v, dv, ..., m}. Returns sum m {v^2, dv^2} of the nodes and adds
+// sum m {v, dv} to `momentum`.
+template <int Dim>
+STRANDLAB_INLINE Pack advance_nodes(const PencilField::Rows& rows, const NodeUpdate& update, double* nodes,
+                                    Pack& momentum) {
+  Pack squares{};
+  double* r = nodes + kRecord * static_cast<long>(rows.base + rows.row_lo);
+  for (int row = rows.row_lo; row < rows.row_hi; ++row, r += kRecord) {
+    const Pack record = load(r);
+    const double mass = record[0];
+    const double inverse = mass > 0 ? 1 / mass : 0;
+    const Pack before =
+        momentum_and_force<Dim>(record) * inverse * update.scale + (mass > 0 ? 1.0 : 0.0) * update.gravity;
+    Pack after = before + second_vector<Dim>(before);
+    momentum += mass * after;
+    squares += mass * after * after;
+    after[7] = mass;
+    store(r, after);
+  }
+  return squares;
+}
+
+// Momentum balance at the nodes of a field and of its mirror images on a pencil, and its energies before contact: 1/2
+// sum m |dv|^2, of which lumping the mass costs a part when the particles take up dv, and the work of gravity on the
+// step's mean velocity.
+template <int Dim>
+STRANDLAB_INLINE void momentum_balance(const PencilField& field, const NodeUpdate& update,
+                                       const NodeUpdate& image_update, const Frame<Dim>& frame,
+                                       const GridView<Dim>& grid, PencilResult& result) {
+  Pack momentum{}, ignored{};
+  const Pack squares = advance_nodes<Dim>({field.base, field.row_lo, field.row_hi}, update, grid.nodes, momentum);
+  for (int k = 0; k < 2; ++k) advance_nodes<Dim>(field.mirror[k], image_update, grid.nodes, ignored);
+  for (int d = 0; d < Dim; ++d) {
+    result.kinetic_change += 0.5 * squares[Dim + d];
+    result.force_change += 0.5 * squares[Dim + d];
+    result.external_work += momentum[d] * frame.dt * frame.gravity[d];
+  }
+}
+
+// Contact at the nodes of one row of a pencil, momentum conserving, independent of the order of the bodies. Two bodies
+// that meet far from the platens are put into `encounters`, for later.
+template <int Dim>
+STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, const Frame<Dim>& frame,
+                                  const GridView<Dim>& grid, Encounters<Dim>& encounters, PencilResult& result) {
+  const double cell = frame.cell[Dim - 1], reach = 0.25 * cell;
+  const int begin = grid.row_start[pencil.slots + row - pencil.row_lo];
+  const int end = grid.row_start[pencil.slots + row - pencil.row_lo + 1];
+  x[Dim - 1] = frame.origin[Dim - 1] + row * cell;
+  bool platen[2];
+  for (int k = 0; k < 2; ++k) {
+    platen[k] = frame.platen[k].present && (frame.platen[k].position - x[Dim - 1]) * (k == 0 ? -1 : 1) < 1.5 * cell;
+  }
+  const int least = platen[0] || platen[1] ? 1 : 2;
+  if (end - begin < least) return;
+  Meeting<Dim> m[3 * kMaxFields];
+  const RowField* origin[kMaxFields];
+  int fields = 0;
+  for (int s = begin; s < end; ++s) {
+    const PencilField& field = grid.fields[pencil.field_begin + grid.slots[s].field];
+    double* record = grid.nodes + kRecord * static_cast<long>(field.base + row);
+    if (!(record[7] > 0)) continue;
+    if (fields == kMaxFields) {
+      result.overflow = 1;
+      break;
+    }
+    m[fields].record = record;
+    origin[fields++] = &grid.slots[s];
+  }
+  if (fields < least) return;
+  const int real = fields;
+  const auto field_of = [&](int i) -> const PencilField& { return grid.fields[pencil.field_begin + origin[i]->field]; };
+  for (int i = 0; i < real; ++i) find_faces<Dim>(field_of(i), origin[i]->faces, row, x, grid.surface, m[i]);
+  Pair<Dim> pairs[kMaxFields * (kMaxFields + 3) / 2];
+  if (real == 2 && least == 2) {
+    if (find_pair<Dim>(m[0], m[1], reach, pairs[0])) add<Dim>(m[0].record, m[1].record, pairs[0], encounters);
+    return;
+  }
+  int count = 0;
+  for (int i = 0; i < real; ++i) {
+    for (int j = i + 1; j < real; ++j) {
+      Pair<Dim>& pair = pairs[count];
+      if (!find_pair<Dim>(m[i], m[j], reach, pair)) continue;
+      pair.a = i;
+      pair.b = j;
+      pair.friction = grid.friction;
+      ++count;
+    }
+    for (int k = 0; k < 2; ++k) {
+      Pair<Dim>& pair = pairs[count];
+      if (!platen[k] || !platen_pair<Dim>(m[i], frame, k, x[Dim - 1], reach, pair)) continue;
+      if (!has_mirror<Dim>(field_of(i), k, row, grid, m[fields])) continue;
+      pair.a = i;
+      pair.b = fields++;
+      pair.friction = grid.platen_friction;
+      ++count;
+    }
+  }
+  if (count > 0) resolve<Dim>(m, fields, real, pairs, count, frame, result);
+}
+
+template <int Dim>
+void update_grid(const Pencil& pencil, const Frame<Dim>& frame, const GridView<Dim>& grid, bool profile,
+                 PencilResult& result) {
+  if (pencil.ghost) return;
+  const NodeUpdate update = node_update<Dim>(pencil, frame, 1), image_update = node_update<Dim>(pencil, frame, -1);
+  for (int f = pencil.field_begin; f < pencil.field_end; ++f)
+    momentum_balance<Dim>(grid.fields[f], update, image_update, frame, grid, result);
+  Lap lap(profile);
+  double x[Dim];
+  for (int a = 0; a < Dim - 1; ++a) x[a] = frame.origin[a] + pencil.index[a] * frame.cell[a];
+  Encounters<Dim> encounters;
+  for (int row = pencil.row_lo; row < pencil.row_hi; ++row) {
+    contact_row<Dim>(pencil, row, x, frame, grid, encounters, result);
+    if (encounters.count == kBlock) resolve<Dim>(encounters, frame, grid.friction, result);
+  }
+  resolve<Dim>(encounters, frame, grid.friction, result);
+  lap(result.contact_ticks);
+}
+
+}  // namespace
+}  // namespace strandlab::mpm::STRANDLAB_ISA

@@ -1,0 +1,66 @@
+// Stress of eight particles: elastic trial stress and return map with the law of the body.
+#pragma once
+
+#include "strandlab/mpm/kernels.hpp"
+#include "strandlab/mpm/kernels/pack.hpp"
+
+namespace strandlab::mpm::STRANDLAB_ISA {
+namespace {
+
+// Elastic trial stress and plastic correction; returns the dissipation per reference volume and adds dtau : d eps.
+template <class Law, int N>
+STRANDLAB_INLINE Pack update_stress(const wood::YieldModes<N>& modes, const Pack (&strain)[6], const Pack& J,
+                                    double* block, int stress, int plastic, Pack& stress_change, long long& yielding,
+                                    Mask& finite) {
+  Pack tau[N];
+  Pack size{};
+  for (int i = 0; i < N; ++i) {
+    tau[i] = load(block + (stress + i) * kBlock);
+    for (int j = 0; j < N; ++j) tau[i] += modes.stiffness[i][j] * strain[j];
+    size += absolute(tau[i]);
+  }
+  finite = (size < kLargestStress) & (J > 1e-6);
+  Pack history = load(block + plastic * kBlock), radius = load(block + (plastic + 1) * kBlock);
+  const Pack dissipation = wood::return_map<Law, PackOps, N>(modes, tau, J, history, radius);
+  const Mask flowing = dissipation > 0.0;
+  if (any(flowing)) {
+    store(block + plastic * kBlock, history);
+    store(block + (plastic + 1) * kBlock, radius);
+    for (int l = 0; l < kBlock; ++l) yielding -= flowing[l];
+  }
+  stress_change = Pack{};
+  for (int i = 0; i < N; ++i) {
+    stress_change += (tau[i] - load(block + (stress + i) * kBlock)) * strain[i];
+    store(block + (stress + i) * kBlock, tau[i]);
+  }
+  return dissipation;
+}
+
+// The same with the body's law and stress components.
+template <int Dim>
+STRANDLAB_INLINE Pack update_stress(const BodyView<Dim>& body, const Pack (&strain)[6], const Pack& J, double* block,
+                                    Pack& stress_change, long long& yielding, Mask& finite) {
+  using C = Component<Dim>;
+  const auto update = [&]<class Law, int N>(const wood::YieldModes<N>& modes, Law) __attribute__((always_inline)) {
+    return update_stress<Law, N>(modes, strain, J, block, C::stress, C::plastic(N), stress_change, yielding, finite);
+  };
+  if (body.components == 4) {
+    return body.crushes ? update(*body.modes4, wood::CrushingLaw{}) : update(*body.modes4, wood::HillLaw{});
+  }
+  return body.crushes ? update(*body.modes6, wood::CrushingLaw{}) : update(*body.modes6, wood::HillLaw{});
+}
+
+template <int Dim>
+void set_radius(const BodyView<Dim>& body, int blocks) {
+  using C = Component<Dim>;
+  const auto& crushing = body.components == 4 ? body.modes4->crushing : body.modes6->crushing;
+  for (int b = 0; b < blocks; ++b) {
+    double* plastic =
+        body.blocks + (static_cast<long>(b) * C::count(body.components) + C::plastic(body.components)) * kBlock;
+    Pack slope;
+    store(plastic + kBlock, PackOps::crushing_radius(crushing, load(plastic), slope));
+  }
+}
+
+}  // namespace
+}  // namespace strandlab::mpm::STRANDLAB_ISA
