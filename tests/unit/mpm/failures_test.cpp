@@ -77,6 +77,21 @@ TEST(Failure, ParticleOutsideTheGrid) {
               {"step 0", "particle 40 of surface strand in row 1", "left the grid"});
 }
 
+TEST(Failure, ParticleStretchedOutOfProportion) {
+  auto body = strand_of(0, kLength);
+  body.F[0](0, 0) = 50;  // in the strand's bottom left corner: a point of its end face lies 25 spacings outside
+  expect_says(failure_of(body), {"step 0", "surface strand in row 1 at (", "stretched out of all proportion"});
+}
+
+// As many as a node holds go on; one more is an error, not a body forgotten.
+TEST(Failure, MoreBodiesAtANodeThanItHolds) {
+  const std::vector<Body<2>> most(24, strand_of(0, kLength));
+  engine_of(most).step();
+  const std::vector<Body<2>> too_many(25, strand_of(0, kLength));
+  expect_says(test::message_of<RunError>([&] { engine_of(too_many).step(); }),
+              {"step 0", "ms", "more than 24 bodies meet at one grid node", "x = "});
+}
+
 // A strand far thinner than a cell has no stable motion between its neighbours. It may fail, with a message; it
 // must never write outside its windows (the sanitizers watch).
 TEST(Failure, SliverNeverLeavesItsWindows) {
