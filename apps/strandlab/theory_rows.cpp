@@ -25,6 +25,16 @@ mat::StrandStatistics statistics_of(const mat::Layer& layer, double length_mm) {
   return {mean, 0, mean * (length_mm / wood - 1), 0};
 }
 
+std::vector<theory::Piece> pieces_of(const mat::Mat& mat, std::size_t layer, const std::vector<StrandKind>& kinds) {
+  const auto& kind = find_kind(kinds, mat.layers[layer].role, layer);
+  std::vector<theory::Piece> pieces;
+  for (const auto& strand : mat.layers[layer].strands) {
+    pieces.push_back({find_material(kind, strand, kinds, layer), strand.angle_deg.value_or(kind.angle_deg),
+                      strand.x1_mm - strand.x0_mm});
+  }
+  return pieces;
+}
+
 double spread_of(const io::Case& c, const std::string& name) {
   const auto kind = std::find_if(c.kinds.begin(), c.kinds.end(), [&](const auto& k) { return k.name == name; });
   return kind == c.kinds.end() ? 0 : kind->angle_spread_deg;
@@ -46,11 +56,12 @@ std::vector<theory::Row> theory_rows(const io::Case& c) {
     return rows;
   }
   const auto mat = io::make_mat(c);
+  const auto woods = io::kinds_and_materials(c);
   for (std::size_t i = 0; i < mat.layers.size(); ++i) {
     rows.push_back(row_of_kind(kinds, mat.layers[i].role));
     rows.back().statistics = statistics_of(mat.layers[i], mat.length_mm);
     rows.back().thickness_mm = mat.thickness_of(i);
-    rows.back().angle_spread_deg = spread_of(c, mat.layers[i].role);
+    rows.back().pieces = pieces_of(mat, i, woods);
   }
   return rows;
 }

@@ -59,19 +59,6 @@ wood::Material find_material(const Case& c, const std::string& name) {
                                near.empty() ? "." : fmt::format("; did you mean \"{}\"?", near), quoted_list(names)));
 }
 
-// Kinds of the case, and one for each of its materials: a strand of a mat file may name any of them, also one that no
-// kind uses.
-std::vector<StrandKind> kinds_and_materials(const Case& c) {
-  auto kinds = strand_kinds(c);
-  for (const auto& user : c.materials) {
-    StrandKind kind;
-    kind.name = "material " + user.material.name;
-    kind.material = user.material;
-    kinds.push_back(kind);
-  }
-  return kinds;
-}
-
 mat::LayupRow layup_row(const KindSettings& kind) {
   mat::LayupRow row;
   row.kind = kind.name;
@@ -117,6 +104,17 @@ std::vector<StrandKind> strand_kinds(const Case& c) {
     kinds.push_back({kind.name, find_material(c, kind.material), kind.angle_deg, kind.yield_factor,
                      kind.stiffness_factor, c.off_axis});
     kinds.back().material.law = kind.law;
+  }
+  return kinds;
+}
+
+std::vector<StrandKind> kinds_and_materials(const Case& c) {
+  auto kinds = strand_kinds(c);
+  for (const auto& user : c.materials) {
+    StrandKind kind;
+    kind.name = "material " + user.material.name;
+    kind.material = user.material;
+    kinds.push_back(kind);
   }
   return kinds;
 }

@@ -75,6 +75,9 @@ std::string ready_case_title(const std::string& name);
 // kind.
 mat::Layup layup(const Case& c);
 std::vector<StrandKind> strand_kinds(const Case& c);
+// The same and a kind for each of the case's materials: a strand of a mat file may name any of them, also one that no
+// kind uses.
+std::vector<StrandKind> kinds_and_materials(const Case& c);
 // The mat of a case: read from its mat file, else formed with its seed. Throws InputError for a bad mat file.
 mat::Mat make_mat(const Case& c);
 // Its weight and what it is made of.

@@ -16,6 +16,17 @@ std::string did_you_mean(const std::string& given, const std::vector<std::string
   return near.empty() ? "." : fmt::format("; did you mean \"{}\"?", near);
 }
 
+std::vector<std::string> material_names(const std::vector<StrandKind>& kinds) {
+  std::vector<std::string> names;
+  for (const auto& built_in : wood::library()) names.push_back(built_in.name);
+  for (const auto& kind : kinds) {
+    if (std::find(names.begin(), names.end(), kind.material.name) == names.end()) names.push_back(kind.material.name);
+  }
+  return names;
+}
+
+}  // namespace
+
 const StrandKind& find_kind(const std::vector<StrandKind>& kinds, const std::string& role, std::size_t layer) {
   for (const auto& kind : kinds) {
     if (kind.name == role) return kind;
@@ -24,15 +35,6 @@ const StrandKind& find_kind(const std::vector<StrandKind>& kinds, const std::str
   std::transform(kinds.begin(), kinds.end(), names.begin(), [](const auto& kind) { return kind.name; });
   throw InputError(fmt::format("layer {}: role \"{}\" is not a strand kind of the case{} Strand kinds: {}", layer + 1,
                                role, did_you_mean(role, names), quoted_list(names)));
-}
-
-std::vector<std::string> material_names(const std::vector<StrandKind>& kinds) {
-  std::vector<std::string> names;
-  for (const auto& built_in : wood::library()) names.push_back(built_in.name);
-  for (const auto& kind : kinds) {
-    if (std::find(names.begin(), names.end(), kind.material.name) == names.end()) names.push_back(kind.material.name);
-  }
-  return names;
 }
 
 const wood::Material& find_material(const StrandKind& kind, const mat::Strand& strand,
@@ -49,8 +51,6 @@ const wood::Material& find_material(const StrandKind& kind, const mat::Strand& s
                                strand.x0_mm, *strand.material, did_you_mean(*strand.material, names),
                                quoted_list(names)));
 }
-
-}  // namespace
 
 Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, double spacing_along_mm,
                     int points_through) {

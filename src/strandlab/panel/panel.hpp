@@ -58,10 +58,17 @@ struct Panel {
   double compaction() const { return 1 - thickness_mm() / initial_thickness_mm; }
 };
 
+// The kind that a layer's role names, and the wood of one of its strands: the strand's own where the mat names one,
+// else its kind's. `layer` counts from 0, for messages. Throw InputError for an unknown role or material, with the
+// nearest known one.
+const StrandKind& find_kind(const std::vector<StrandKind>& kinds, const std::string& role, std::size_t layer);
+const wood::Material& find_material(const StrandKind& kind, const mat::Strand& strand,
+                                    const std::vector<StrandKind>& kinds, std::size_t layer);
+
 // The panel of a mat before pressing: every strand becomes a lattice with a spacing along it close to
 // `spacing_along_mm` that fills its length exactly. Strands of the thinnest row have `points_through` points through
-// their thickness, others as many as keep the points' height nearest to that. Throws InputError for an unknown role or
-// material, with the nearest known one. A strand that names a material of its own still yields by the law of its kind.
+// their thickness, others as many as keep the points' height nearest to that. Throws as find_kind() and
+// find_material(). A strand that names a material of its own still yields by the law of its kind.
 Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, double spacing_along_mm,
                     int points_through);
 

@@ -41,6 +41,23 @@ double mean_within(double angle, double spread, const Function& value) {
   return sum / kAngles;
 }
 
+// Mean of value(material, angle) over the wood of a row.
+template <typename Function>
+double mean_over(const Row& row, const Function& value) {
+  if (row.pieces.empty())
+    return mean_within(row.angle_deg, row.angle_spread_deg, [&](double angle) { return value(row.material, angle); });
+  double sum = 0, wood = 0;
+  for (const Piece& piece : row.pieces) {
+    sum += piece.length_mm * value(piece.material, piece.angle_deg);
+    wood += piece.length_mm;
+  }
+  return sum / wood;
+}
+
+double off_grain(double angle_deg) {
+  return std::abs(std::remainder(angle_deg, 180.0));
+}
+
 void check_compaction(double compaction) {
   if (!(compaction >= 0) || !(compaction < 1))
     throw InputError(fmt::format("compaction {:g} is not in 0 <= C < 1", compaction));
@@ -74,8 +91,9 @@ double solid_fraction(const mat::StrandStatistics& s) {
 }
 
 bool runs_along(const Row& row) {
-  const double off = std::abs(std::remainder(row.angle_deg, 180.0));
-  return off + row.angle_spread_deg < 45;
+  if (row.pieces.empty()) return off_grain(row.angle_deg) + row.angle_spread_deg < 45;
+  return std::all_of(row.pieces.begin(), row.pieces.end(),
+                     [](const Piece& piece) { return off_grain(piece.angle_deg) < 45; });
 }
 
 double off_axis_modulus_MPa(const wood::Material& m, double angle_deg) {
@@ -104,9 +122,9 @@ double quasi_isotropic_modulus_MPa(const wood::Material& m) {
 }
 
 double strand_modulus_MPa(const Row& row, OffAxis off_axis) {
-  return mean_within(row.angle_deg, row.angle_spread_deg, [&](double angle) {
-    return off_axis == OffAxis::kExact ? plane_strain_modulus_MPa(row.material, angle)
-                                       : off_axis_modulus_MPa(row.material, angle);
+  return mean_over(row, [&](const wood::Material& material, double angle) {
+    return off_axis == OffAxis::kExact ? plane_strain_modulus_MPa(material, angle)
+                                       : off_axis_modulus_MPa(material, angle);
   });
 }
 
@@ -176,8 +194,9 @@ double shear_lag_panel_MPa(const std::vector<Row>& rows, const Matrix& matrix, d
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto& row = rows[i];
     if (!runs_along(row)) continue;
+    const double G_RL = mean_over(row, [](const wood::Material& material, double) { return material.G_RL; });
     moduli[i] =
-        shear_lag_modulus_MPa({strand_modulus_MPa(row, off_axis), row.material.G_RL, solid_fraction(row.statistics),
+        shear_lag_modulus_MPa({strand_modulus_MPa(row, off_axis), G_RL, solid_fraction(row.statistics),
                                matrix.modulus_MPa, matrix.shear_MPa, row.statistics.length_mm, row.thickness_mm},
                               compliance);
   }
@@ -189,7 +208,8 @@ double density_kg_m3(const std::vector<Row>& rows, double compaction) {
   check_rows(rows.size());
   double mass = 0, height = 0;
   for (const Row& row : rows) {
-    mass += row.material.density_kg_m3 * solid_fraction(row.statistics) * row.thickness_mm;
+    const double wood = mean_over(row, [](const wood::Material& material, double) { return material.density_kg_m3; });
+    mass += wood * solid_fraction(row.statistics) * row.thickness_mm;
     height += row.thickness_mm;
   }
   return mass / height / (1 - compaction);

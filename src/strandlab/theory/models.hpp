@@ -14,13 +14,21 @@ namespace strandlab::theory {
 // and shears freely across (uncoupled), or held in plane strain as in the simulations (exact).
 using wood::OffAxis;
 
+// A strand that is known, of a given mat.
+struct Piece {
+  wood::Material material;
+  double angle_deg = 0;
+  double length_mm = 0;  // any unit: shares of the row's wood
+};
+
 // One row of strands.
 struct Row {
   wood::Material material;
   double angle_deg = 0;              // grain against the section: 0 surface, 90 core
   mat::StrandStatistics statistics;  // mm along the section; length 0 and gap 0: one strand fills the row
   double thickness_mm = 0.8;
-  double angle_spread_deg = 0;  // angles of its strands are uniform within angle_deg +- this
+  double angle_spread_deg = 0;     // angles of its strands are uniform within angle_deg +- this
+  std::vector<Piece> pieces = {};  // where they are known: in place of one material and angle for all
 };
 
 // Mean <L>/(<L> + <G>), the part of a row that is wood; 1 for a full row.
@@ -40,7 +48,7 @@ double plane_strain_average_MPa(const wood::Material& material);
 // Laminate with plies in all directions alike, plane stress, MPa: (U1^2 - U4^2)/U1 with the lamina invariants U1, U4.
 // Jones, Mechanics of Composite Materials (1999), section 4.4.
 double quasi_isotropic_modulus_MPa(const wood::Material& material);
-// Modulus of a row's solid wood along the section, MPa: the mean over the angles of its strands.
+// Modulus of a row's solid wood along the section, MPa: the mean over its strands or their angles.
 double strand_modulus_MPa(const Row& row, OffAxis off_axis);
 
 // --- a panel at compaction C, MPa ---

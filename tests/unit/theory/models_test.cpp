@@ -119,6 +119,22 @@ TEST(Theory, AThickRowIsSeveralThinOnes) {
   EXPECT_NEAR(tension_modulus_MPa(mixed, 0), (24311 * 1.2 + (9936 + 427) * .8) / 2.8, 1e-8);
 }
 
+// Where the strands of a row are known, each counts by its length, with its own wood and angle.
+TEST(Theory, RowsOfKnownStrands) {
+  const auto& vtc = wood::library()[1];
+  Row row = full_row();
+  row.pieces = {{poplar(), 0, 50}, {vtc, 90, 25}, {poplar(), -30, 25}};
+  const double expected = .5 * 9936 + .25 * 1005 + .25 * off_axis_modulus_MPa(poplar(), 30);
+  EXPECT_NEAR(tension_modulus_MPa({row}, .2), expected / .8, 1e-8);
+  EXPECT_NEAR(density_kg_m3({row}, 0), .75 * 350 + .25 * 910, 1e-10);
+  EXPECT_FALSE(runs_along(row));
+  row.pieces[1].angle_deg = 170;
+  EXPECT_TRUE(runs_along(row));
+  Row same = full_row(30);
+  same.pieces = {{poplar(), 30, 7}, {poplar(), 30, 1}};
+  EXPECT_NEAR(tension_modulus_MPa({same}, 0, OffAxis::kExact), plane_strain_modulus_MPa(poplar(), 30), 1e-9);
+}
+
 // Rows of strands at any angle have the mean over angles, and are core; a narrow spread about the section is not.
 TEST(Theory, RowsOfRandomAngles) {
   Row core = full_row();
