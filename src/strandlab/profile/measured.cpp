@@ -14,15 +14,19 @@ namespace {
 
 using table::Dimension, table::Quantity, table::Table;
 
-constexpr int kFewestReadings = 5;
+constexpr std::size_t kFewestReadings = 5;
 constexpr double kDensest = 2000;  // kg/m^3; cell walls have 1500
+constexpr double kLightest = 100;  // kg/m^3: no panel's densest layer is lighter
+constexpr double kAir = 50;        // kg/m^3: readings beside the specimen, noise and all, are below
 
 std::vector<Quantity> quantities(const MeasuredColumns& columns) {
-  Quantity position{{"position", "depth", "distance", "height", "thickness", "x"}, Dimension::kLength, "mm"};
+  Quantity position{{"position", "depth", "distance", "height", "thickness", "x", "Tiefe"}, Dimension::kLength, "mm"};
   position.several = true;  // its header may hold further words: "Depth from top face (mm)"
   if (columns.position > 0) position.columns = {columns.position};
   position.stated_unit = columns.position_unit;
-  Quantity density{{"density", "D"}, Dimension::kDensity, "kg_m3"};
+  position.option = "--position";
+  Quantity density{{"density", "D", "Dichte", "Rohdichte"}, Dimension::kDensity, "kg_m3"};
+  density.option = "--density";
   density.several = true;
   density.columns = columns.density;
   density.stated_unit = columns.density_unit;
@@ -33,7 +37,11 @@ std::vector<Quantity> quantities(const MeasuredColumns& columns) {
 // Readings of one specimen in the order of the file.
 class Readings {
  public:
-  Readings(std::string name, int line) : name_(std::move(name)), line_(line) {}
+  Readings(std::string name, std::string label, int line)
+      : name_(std::move(name)), label_(std::move(label)), line_(line) {}
+
+  const std::string& name() const { return name_; }
+  const std::string& label() const { return label_; }  // text of the column of specimens
 
   // Would this position follow on those before it?
   bool continues(double position) const {
@@ -52,18 +60,39 @@ class Readings {
   double last() const { return position_.back(); }
 
   Specimen finish(const std::string& source) const {
-    if (static_cast<int>(position_.size()) < kFewestReadings) {
-      throw InputError(fmt::format("{}:{}: specimen '{}' has {} readings; a profile needs at least {}", source, line_,
-                                   name_, position_.size(), kFewestReadings));
+    refuse_few(source, position_.size(), "");
+    const double densest = *std::max_element(density_.begin(), density_.end());
+    if (densest < kLightest) {
+      throw InputError(
+          fmt::format("{}:{}: specimen '{}' has no more than {:g} kg/m3 anywhere, less than any panel (is the unit "
+                      "right? --density-unit states it where the file does not)",
+                      source, line_, name_, densest));
     }
-    Specimen specimen{name_, position_, density_};
-    const double start = position_.front(), sign = position_.back() > start ? 1 : -1;
-    for (auto& x : specimen.position_mm) x = sign * (x - start);
+    auto specimen = without_air();
+    refuse_few(source, specimen.position_mm.size(), " in wood");
     return specimen;
   }
 
  private:
-  std::string name_;
+  void refuse_few(const std::string& source, std::size_t count, const char* where) const {
+    if (count >= kFewestReadings) return;
+    throw InputError(fmt::format("{}:{}: specimen '{}' has {} reading{}{}; a profile needs at least {}", source, line_,
+                                 name_, count, count == 1 ? "" : "s", where, kFewestReadings));
+  }
+  // Positions from the first reading in wood to the last one, increasing.
+  Specimen without_air() const {
+    const auto is_wood = [](double density) { return density >= kAir; };
+    const auto from = std::find_if(density_.begin(), density_.end(), is_wood) - density_.begin();
+    const auto past = density_.rend() - std::find_if(density_.rbegin(), density_.rend(), is_wood);
+    Specimen specimen{name_,
+                      {position_.begin() + from, position_.begin() + past},
+                      {density_.begin() + from, density_.begin() + past}};
+    const double start = specimen.position_mm.front(), sign = specimen.position_mm.back() > start ? 1 : -1;
+    for (auto& x : specimen.position_mm) x = sign * (x - start);
+    return specimen;
+  }
+
+  std::string name_, label_;
   int line_ = 0;  // of the first reading
   std::vector<double> position_, density_;
 };
@@ -80,14 +109,16 @@ class Column {
       const auto density = table_.number(row, "density", which_);
       if (position && density) add(row, *position, *density);
     }
-    finish();
     if (found_.empty()) throw InputError(fmt::format("{}: no readings of position and density", source_));
-    return std::move(found_);
+    std::vector<Specimen> all;
+    all.reserve(found_.size());
+    for (const auto& readings : found_) all.push_back(readings.finish(source_));
+    return all;
   }
 
  private:
   void add(int row, double position, double density) {
-    if (!(density >= 0 && density <= kDensest)) {
+    if (!(density >= -kAir && density <= kDensest)) {
       throw InputError(
           fmt::format("{}: density {:g} kg/m3; wood has between 0 and {:g} kg/m3 (is the unit right? "
                       "--density-unit states it where the file does not)",
@@ -95,33 +126,45 @@ class Column {
     }
     if (!std::isfinite(position))
       throw InputError(fmt::format("{}: position {} is not a finite number", table_.where(row), position));
-    const std::string label = table_.text(row, "specimen");
-    const bool other = readings_ && label != label_;
-    if (readings_ && !other && !readings_->continues(position) && !readings_->starts_again(position)) {
-      throw InputError(
-          fmt::format("{}: position {:g} mm after {:g} mm; positions go one way through a specimen, and begin again "
-                      "for the next one",
-                      table_.where(row), position, readings_->last()));
+    auto* readings = open(row);
+    if (readings != nullptr && !readings->continues(position)) {
+      if (!readings->starts_again(position)) {
+        throw InputError(
+            fmt::format("{}: position {:g} mm after {:g} mm; positions go one way through a specimen, and begin again "
+                        "for the next one",
+                        table_.where(row), position, readings->last()));
+      }
+      readings = nullptr;
     }
-    if (other || (readings_ && !readings_->continues(position))) finish();
-    if (!readings_) {
-      label_ = label;
-      readings_.emplace(name(label), table_.line(row));
-    }
-    readings_->add(position, density);
+    if (readings == nullptr) readings = &start(row);
+    readings->add(position, density);
   }
 
-  void finish() {
-    if (readings_) found_.push_back(readings_->finish(source_));
-    readings_.reset();
+  // The specimen that a row goes on with: the last one of its text (rows of specimens may alternate) under the same
+  // header.
+  Readings* open(int row) {
+    if (table_.section(row) != section_) return nullptr;
+    const std::string label = table_.text(row, "specimen");
+    const auto last = std::find_if(found_.rbegin(), found_.rend() - static_cast<std::ptrdiff_t>(first_of_section_),
+                                   [&](const Readings& r) { return r.label() == label; });
+    return last == found_.rend() - static_cast<std::ptrdiff_t>(first_of_section_) ? nullptr : &*last;
+  }
+
+  Readings& start(int row) {
+    if (table_.section(row) != section_) {
+      section_ = table_.section(row);
+      first_of_section_ = found_.size();
+    }
+    const std::string label = table_.text(row, "specimen");
+    return found_.emplace_back(name(label), label, table_.line(row));
   }
 
   // What tells the specimen from others: its own text, the words of its column, its number.
   std::string name(const std::string& text) const {
     std::string name = text.empty() ? table_.label("density", which_) : text;
     if (name.empty()) name = std::to_string(which_ + 1);
-    const auto same = std::count_if(found_.begin(), found_.end(), [&](const Specimen& s) {
-      return s.name == name || s.name.rfind(name + " (", 0) == 0;
+    const auto same = std::count_if(found_.begin(), found_.end(), [&](const Readings& r) {
+      return r.name() == name || r.name().rfind(name + " (", 0) == 0;
     });
     return same > 0 ? fmt::format("{} ({})", name, same + 1) : name;
   }
@@ -129,9 +172,9 @@ class Column {
   const Table& table_;
   const std::string& source_;
   int which_ = 0;
-  std::vector<Specimen> found_;
-  std::optional<Readings> readings_;
-  std::string label_;
+  std::vector<Readings> found_;
+  int section_ = 0;
+  std::size_t first_of_section_ = 0;  // in found_
 };
 
 std::vector<Specimen> specimens_of(const Table& table, const std::string& source) {

@@ -9,7 +9,7 @@
 
 namespace strandlab::profile {
 
-// One specimen: positions through the thickness from the first reading (0) on, increasing.
+// One specimen: positions through the thickness from the first reading in wood (0) on, increasing.
 struct Specimen {
   std::string name;
   std::vector<double> position_mm;
@@ -26,10 +26,11 @@ struct MeasuredColumns {
 };
 
 // Reads a table (table/table.hpp says what it may look like): a column of positions and one or more of densities. Each
-// density column is a specimen, and so are rows with another text in a column named specimen, sample or board, and rows
-// from where the positions start again. Rows without both numbers are passed over. Throws InputError with the line and
-// the reason for what is no profile: no such column, no unit, text for a number, a density that no wood has (outside
-// 0..2000 kg/m^3), positions that go back and forth, fewer than five readings of a specimen.
+// density column is a specimen, and so are rows with another text in a column named specimen, sample or board, rows
+// from where the positions start again, and rows below a repetition of the header. Rows without both numbers are passed
+// over. Throws InputError with the line and the reason for what is no profile: no such column, no unit, text for a
+// number, a density that no wood has (outside 0..2000 kg/m^3, or nowhere more than 100), positions that go back and
+// forth, fewer than five readings of a specimen.
 std::vector<Specimen> read_measured(const std::filesystem::path& file, const MeasuredColumns& columns = {});
 // The same for a text in memory; `source` opens the messages.
 std::vector<Specimen> measured_from_text(const std::string& text, const std::string& source,

@@ -202,13 +202,14 @@ io::CsvTable measured_table(const std::vector<profile::Specimen>& specimens) {
 }
 
 io::CsvTable comparison_table(const std::vector<profile::Mean>& simulated, const profile::Mean& measured) {
-  io::CsvTable table({"compaction", "simulated_mean_kg_m3", "measured_mean_kg_m3", "rms_difference_kg_m3",
-                      "rms_difference_of_shapes"});
+  io::CsvTable table({"compaction", "simulated_thickness_mm", "measured_thickness_mm", "simulated_mean_kg_m3",
+                      "measured_mean_kg_m3", "rms_difference_kg_m3", "rms_difference_of_shapes"});
   const auto real = measured.profile();
   for (const auto& mean : simulated) {
     const auto p = mean.profile();
-    table.add_row({mean.compaction, profile::mean_between(p, 0, 1), profile::mean_between(real, 0, 1),
-                   profile::rms_difference(p, real), profile::rms_difference(over_mean(p), over_mean(real))});
+    table.add_row({mean.compaction, mean.thickness_mm, measured.thickness_mm, profile::mean_between(p, 0, 1),
+                   profile::mean_between(real, 0, 1), profile::rms_difference(p, real),
+                   profile::rms_difference(over_mean(p), over_mean(real))});
   }
   return table;
 }

@@ -65,6 +65,10 @@ bool looks_like_number(const std::string& cell) {
   return !number.empty() && std::string_view("0123456789-.,").find(number.front()) != std::string_view::npos;
 }
 
+bool is_number(const std::string& cell) {
+  return looks_like_number(cell) && bare_number(cell).find_first_not_of("0123456789-+.,eE") == std::string::npos;
+}
+
 // The text a header or units cell holds between brackets and separators: "_mm", " (mm)", "[mm]", ", in mm" -> "mm".
 std::string unit_text(std::string_view rest) {
   constexpr std::string_view kOpen = " _([,/:", kClose = " )]";
@@ -88,6 +92,32 @@ constexpr std::string_view kSeparators = " _([,/:;)]-\t";
 std::string words(const std::string& text) {
   const auto first = text.find_first_not_of(kSeparators);
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(kSeparators) + 1 - first);
+}
+
+// What stands around `name` in a header that holds it as a word of its own, be it behind others: "S1 Density (kg/m3)".
+std::optional<std::string> around_name(const std::string& header, const std::string& name) {
+  const auto is_word = [&header](std::size_t from, std::size_t past) {
+    return (from == 0 || kSeparators.find(header[from - 1]) != std::string_view::npos) &&
+           (past == header.size() || kSeparators.find(header[past]) != std::string_view::npos);
+  };
+  const std::string text = lower(header), word = lower(name);
+  if (word.size() < 2) return std::nullopt;  // D and x name a column only where they open its header
+  for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    if (is_word(at, at + word.size())) return header.substr(0, at) + " " + header.substr(at + word.size());
+  }
+  return std::nullopt;
+}
+
+constexpr int kOpens = 2, kHolds = 1;
+
+// Does a header open with one of the quantity's names (kOpens), hold one further in (kHolds), or neither (0)?
+int names(const std::string& header, const Quantity& quantity) {
+  const auto any = [&](auto rest_of) {
+    return std::any_of(quantity.names.begin(), quantity.names.end(),
+                       [&](const std::string& name) { return rest_of(header, name).has_value(); });
+  };
+  if (any(after_name)) return kOpens;
+  return quantity.several && any(around_name) ? kHolds : 0;
 }
 
 // Unit and other words of a header behind its name: the longest run of whole words that is a known unit. The words
@@ -234,24 +264,48 @@ std::vector<Table::Row> Table::split(const std::string& text, char delimiter) {
   return rows;
 }
 
-void Table::find_column(const Quantity& quantity, const Row& header, int column, Found& found) const {
+// Takes a column whose header holds `rest` beside a name of the quantity.
+void Table::add_column(const Quantity& quantity, const Row& header, int column, const std::string& rest,
+                       Found& found) const {
   const std::string& cell = header.cells[column];
-  for (const auto& name : quantity.names) {
-    const auto rest = after_name(cell, name);
-    if (!rest) continue;
-    const auto [unit, label] = quantity.several ? unit_and_label(quantity.dimension, *rest)
-                                                : std::pair<std::string, std::string>{unit_text(*rest), ""};
-    const auto factor = unit_factor(quantity.dimension, unit);
-    if (!unit.empty() && !factor) {
-      if (quantity.dimension != Dimension::kText) found.doubt = cell;
-      continue;
-    }
-    if (!found.columns.empty() && found.columns.back().number == column) continue;
-    if (!found.columns.empty() && !quantity.several)
-      throw InputError(fmt::format("{}:{}: columns '{}' and '{}' both give {}", source_, header.line,
-                                   header.cells[found.columns[0].number], cell, quantity.names[0]));
-    found.columns.push_back({column, factor, label});
+  const auto [unit, label] = quantity.several ? unit_and_label(quantity.dimension, rest)
+                                              : std::pair<std::string, std::string>{unit_text(rest), ""};
+  const auto factor = unit_factor(quantity.dimension, unit);
+  if (!unit.empty() && !factor) {
+    if (quantity.dimension != Dimension::kText) found.doubt = cell;
+    return;
   }
+  if (!found.columns.empty() && found.columns.back().number == column) return;
+  if (!found.columns.empty() && !quantity.several)
+    throw InputError(fmt::format("{}:{}: columns '{}' and '{}' both give {}", source_, header.line,
+                                 header.cells[found.columns[0].number], cell, quantity.names[0]));
+  found.columns.push_back({column, factor, label});
+}
+
+// The columns whose header opens with a name of the quantity. Of one that may have several columns: those with the
+// first of its names that occurs; where none opens a header, those that hold one further in and open with no other
+// quantity's.
+Table::Found Table::find_named(const Quantity& quantity, const Row& header) const {
+  const int width = static_cast<int>(header.cells.size());
+  Found found;
+  const auto search = [&](const std::string& name, auto rest_of) {
+    for (int column = 0; column < width; ++column) {
+      if (const auto rest = rest_of(header.cells[column], name)) add_column(quantity, header, column, *rest, found);
+    }
+    return quantity.several && !found.columns.empty();
+  };
+  const auto further_in = [&](const std::string& cell, const std::string& name) {
+    const bool taken = std::any_of(quantities_.begin(), quantities_.end(),
+                                   [&](const Quantity& other) { return names(cell, other) == kOpens; });
+    return taken ? std::nullopt : around_name(cell, name);
+  };
+  for (const auto& name : quantity.names) {
+    if (search(name, after_name)) return found;
+  }
+  for (const auto& name : quantity.names) {
+    if (quantity.several && search(name, further_in)) return found;
+  }
+  return found;
 }
 
 std::vector<Table::Found> Table::find_columns(const Row& header) const {
@@ -267,35 +321,51 @@ std::vector<Table::Found> Table::find_columns(const Row& header) const {
       result[q].columns.push_back({number - 1, unit_factor(quantity.dimension, unit), label});
     }
     if (!quantity.columns.empty()) continue;
-    for (int column = 0; column < width; ++column) find_column(quantity, header, column, result[q]);
+    result[q] = find_named(quantity, header);
   }
   return result;
 }
 
-int Table::matches(const Row& header) const {
-  int count = 0;
+// First, that the row names what is required; then, that numbers follow below; then the other quantities; then, that
+// the delimiter makes cells of it.
+Table::Score Table::score(const std::vector<Row>& rows, std::size_t row) const {
+  const auto& cells = rows[row].cells;
+  int required = 0, optional = 0;
+  std::vector<std::size_t> numbers;
   for (const auto& quantity : quantities_) {
-    count += std::any_of(header.cells.begin(), header.cells.end(), [&](const std::string& cell) {
-      return std::any_of(quantity.names.begin(), quantity.names.end(),
-                         [&](const std::string& name) { return after_name(cell, name).has_value(); });
-    });
+    int best = 0;
+    std::size_t where = 0;
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      const int named = names(cells[k], quantity);
+      if (named <= best) continue;
+      best = named;
+      where = k;
+    }
+    (quantity.required ? required : optional) += best;
+    if (best > 0 && quantity.required && quantity.dimension != Dimension::kText) numbers.push_back(where);
   }
-  return count;
+  const auto holds_numbers = [&](std::size_t at) {
+    return at < rows.size() && std::all_of(numbers.begin(), numbers.end(), [&](std::size_t k) {
+             return k < rows[at].cells.size() && is_number(rows[at].cells[k]);
+           });
+  };
+  const bool followed = !numbers.empty() && (holds_numbers(row + 1) || holds_numbers(row + 2));  // a row of units
+  return {required, followed ? 1 : 0, optional, static_cast<int>(cells.size())};
 }
 
 constexpr std::array kDelimiters{'\t', ';', ','};
 constexpr std::size_t kHeaderWithin = 100;  // rows of remarks that may stand above the header
 
-// The row that names most quantities; the delimiter is the one with which it does.
+// The row that most speaks for, with the delimiter with which it does.
 std::size_t Table::find_header(const std::string& text) {
   std::size_t header = 0;
-  int best = -1;
+  Score best{-1, 0, 0, 0};
   for (const char delimiter : kDelimiters) {
     const auto rows = split(text, delimiter);
     for (std::size_t i = 0; i < std::min(rows.size(), kHeaderWithin); ++i) {
-      const int score = matches(rows[i]);
-      if (score <= best) continue;
-      best = score;
+      const auto found = score(rows, i);
+      if (found <= best) continue;
+      best = found;
       header = i;
       delimiter_ = delimiter;
     }
@@ -345,6 +415,7 @@ void Table::parse(const std::string& text) {
   if (rows_.empty()) rows_ = split(text, delimiter_);
   if (rows_.empty()) throw InputError(fmt::format("{}: is empty", source_));
   header_ = rows_[header];
+  remarks_.assign(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(header));
   rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(header) + 1);
   found_ = find_columns(header_);
   for (int column = 0; column < static_cast<int>(header_.cells.size()); ++column) {
@@ -353,7 +424,7 @@ void Table::parse(const std::string& text) {
     });
     if (!taken && !header_.cells[column].empty()) others_.push_back(column);
   }
-  read_units_row();
+  begin_sections(read_units_row());
   take_stated_units();
   check_columns();
   check_cells();
@@ -368,8 +439,9 @@ void Table::for_each_number_column(Visit visit) const {
   }
 }
 
-void Table::read_units_row() {
-  if (rows_.empty()) return;
+// Takes the row of units, if there is one, out of the rows.
+std::optional<Table::Row> Table::read_units_row() {
+  if (rows_.empty()) return std::nullopt;
   const Row& row = rows_.front();
   const auto cell_of = [&row](const Column& column) {
     return column.number < static_cast<int>(row.cells.size()) ? row.cells[column.number] : std::string();
@@ -380,7 +452,7 @@ void Table::read_units_row() {
     if (is_missing_mark(cell)) return;
     (looks_like_number(cell) ? numbers : units) = true;
   });
-  if (!units || numbers) return;
+  if (!units || numbers) return std::nullopt;
   for_each_number_column([&](std::size_t q, std::size_t k) {
     auto& column = found_[q].columns[k];
     const std::string cell = unit_text(cell_of(column));
@@ -395,14 +467,79 @@ void Table::read_units_row() {
                                    row.line, column_name(column.number), cell));
     column.factor = factor;
   });
+  Row taken = row;
   rows_.erase(rows_.begin());
+  return taken;
+}
+
+// Has text where the first of the quantities has its numbers.
+bool Table::is_remark(const Row& row) const {
+  for (std::size_t q = 0; q < quantities_.size(); ++q) {
+    if (!quantities_[q].several || quantities_[q].dimension == Dimension::kText) continue;
+    return std::all_of(found_[q].columns.begin(), found_[q].columns.end(), [&](const Column& column) {
+      return column.number < static_cast<int>(row.cells.size()) && !is_number(row.cells[column.number]);
+    });
+  }
+  return false;
+}
+
+// Exports of one specimen after the other repeat the header above each, perhaps with remarks before and units after it.
+void Table::begin_sections(const std::optional<Row>& units) {
+  const auto same = [](const Row& row, const Row& other) {
+    const auto longest = std::max(row.cells.size(), other.cells.size());
+    for (std::size_t k = 0; k < longest; ++k) {
+      const bool one = k < row.cells.size() && !row.cells[k].empty(),
+                 two = k < other.cells.size() && !other.cells[k].empty();
+      if (one != two || (one && row.cells[k] != other.cells[k])) return false;
+    }
+    return true;
+  };
+  std::vector<Row> kept;
+  int section = 0;
+  bool after_header = false;
+  for (auto& row : rows_) {
+    if (same(row, header_)) {
+      while (!kept.empty() && kept.back().section == section && is_remark(kept.back())) kept.pop_back();
+      ++section;
+      after_header = true;
+      continue;
+    }
+    const bool repeats_units = after_header && units && same(row, *units);
+    after_header = false;
+    if (repeats_units) continue;
+    row.section = section;
+    kept.push_back(std::move(row));
+  }
+  rows_ = std::move(kept);
+}
+
+// The unit that remarks above the header state for all columns of a kind: "Units: inches, lb/ft3". None where they
+// differ.
+std::optional<double> Table::unit_in_remarks(Dimension dimension) const {
+  std::optional<double> unit;
+  for (const auto& row : remarks_) {
+    const bool states = std::any_of(row.cells.begin(), row.cells.end(), [](const std::string& cell) {
+      return lower(cell).find("unit") != std::string::npos;
+    });
+    if (!states) continue;
+    for (std::string cell : row.cells) {
+      if (lower(cell).rfind("units in ", 0) == 0) cell.erase(0, 9);  // no inches
+      const auto factor = unit_factor(dimension, unit_and_label(dimension, cell).first);
+      if (!factor) continue;
+      if (unit && *unit != *factor) return std::nullopt;
+      unit = factor;
+    }
+  }
+  return unit;
 }
 
 void Table::take_stated_units() {
   for_each_number_column([&](std::size_t q, std::size_t k) {
     const auto& quantity = quantities_[q];
-    if (quantity.stated_unit.empty()) return;
     auto& column = found_[q].columns[k];
+    if (quantity.stated_unit.empty() && quantity.several && !column.factor)
+      column.factor = unit_in_remarks(quantity.dimension);
+    if (quantity.stated_unit.empty()) return;
     const auto factor = unit_factor(quantity.dimension, quantity.stated_unit);
     if (!factor)
       throw InputError(fmt::format("unit '{}' of {} is not known (known: {})", quantity.stated_unit, quantity.names[0],
@@ -418,13 +555,15 @@ void Table::check_columns(const Quantity& quantity, const Found& found, const st
   if (quantity.dimension == Dimension::kText) return;
   for (const auto& column : found.columns) {
     if (column.factor) continue;
-    throw InputError(fmt::format("{}:{}: column '{}' has no unit; write {} or add a row of units (known: {})", source_,
-                                 header_.line, column_name(column.number), written, known_units(quantity.dimension)));
+    const auto option = quantity.option.empty() ? "" : fmt::format(", or state it by {}-unit", quantity.option);
+    throw InputError(fmt::format("{}:{}: column '{}' has no unit; write {} or add a row of units{} (known: {})",
+                                 source_, header_.line, column_name(column.number), written, option,
+                                 known_units(quantity.dimension)));
   }
 }
 
 void Table::check_columns() const {
-  std::string missing;
+  std::string missing, options;
   for (std::size_t q = 0; q < quantities_.size(); ++q) {
     const auto& quantity = quantities_[q];
     const std::string written = quantity.unit.empty() ? quantity.names[0] : quantity.names[0] + "_" + quantity.unit;
@@ -434,12 +573,14 @@ void Table::check_columns() const {
       throw InputError(fmt::format("{}:{}: column '{}' has no known unit; write {} (known: {})", source_, header_.line,
                                    found_[q].doubt, written, known_units(quantity.dimension)));
     missing += (missing.empty() ? "" : ", ") + written;
+    if (!quantity.option.empty())
+      options += (options.empty() ? "; or say which it is by " : ", ") + quantity.option + "-column";
   }
   if (missing.empty()) return;
   std::string present;
   for (const auto& cell : header_.cells) present += (present.empty() ? "" : ", ") + cell;
   throw InputError(
-      fmt::format("{}:{}: missing column {}; the header has: {}", source_, header_.line, missing, present));
+      fmt::format("{}:{}: missing column {}; the header has: {}{}", source_, header_.line, missing, present, options));
 }
 
 void Table::check_cells() {

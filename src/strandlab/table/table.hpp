@@ -3,6 +3,7 @@
 // header.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -19,9 +20,11 @@ struct Quantity {
   std::string unit;  // our unit, for messages
   bool required = true;
   // Tables of instruments without a fixed form:
-  bool several = false;        // any number of columns, told apart by labels; the header may hold further words
+  bool several = false;        // any number of columns, told apart by labels; the header may hold further words, also
+                               // before the name; where columns have several of the names, the first name counts
   std::vector<int> columns{};  // where they stand, 1 the first, in place of a search by name
   std::string stated_unit{};   // unit of columns that state none; a table that states another one is refused
+  std::string option{};        // "--density": the user's options for these are --density-column and --density-unit
 };
 
 class Table {
@@ -37,6 +40,8 @@ class Table {
   int rows() const { return static_cast<int>(rows_.size()); }
   int line(int row) const { return rows_[row].line; }  // 1-based line in the file
   std::string where(int row) const;                    // "file.csv:12"
+  // Tables below each other under the same header, remarks between them: 0 the first, 1 from its repetition on...
+  int section(int row) const { return rows_[row].section; }
   bool has(const std::string& name) const { return count(name) > 0; }
   int count(const std::string& name) const;  // columns of that quantity
   // What the header of such a column says besides name and unit: "3" of "Density 3 (kg/m3)".
@@ -54,6 +59,7 @@ class Table {
   struct Row {
     int line = 0;
     std::vector<std::string> cells;
+    int section = 0;
   };
   struct Column {
     int number = 0;                // 0 the first
@@ -66,13 +72,19 @@ class Table {
   };
   void parse(const std::string& text);
   static std::vector<Row> split(const std::string& text, char delimiter);
-  int matches(const Row& header) const;  // number of quantities that a row names
+  // How much speaks for a row to be the header, the first reason first.
+  using Score = std::array<int, 4>;
+  Score score(const std::vector<Row>& rows, std::size_t row) const;
   bool numbers_at_columns(const Row& row) const;
   std::size_t find_header(const std::string& text);
   std::size_t find_header_by_columns(const std::string& text);
   std::vector<Found> find_columns(const Row& header) const;
-  void find_column(const Quantity& quantity, const Row& header, int column, Found& found) const;
-  void read_units_row();
+  void add_column(const Quantity& quantity, const Row& header, int column, const std::string& rest, Found& found) const;
+  Found find_named(const Quantity& quantity, const Row& header) const;
+  std::optional<Row> read_units_row();
+  void begin_sections(const std::optional<Row>& units);
+  bool is_remark(const Row& row) const;
+  std::optional<double> unit_in_remarks(Dimension dimension) const;
   void take_stated_units();
   void check_columns() const;
   void check_columns(const Quantity& quantity, const Found& found, const std::string& written) const;
@@ -88,6 +100,7 @@ class Table {
   std::vector<Quantity> quantities_;
   std::vector<Found> found_;  // by quantity
   std::vector<int> others_;
+  std::vector<Row> remarks_;  // above the header
   Row header_;
   std::vector<Row> rows_;
   char delimiter_ = ',';

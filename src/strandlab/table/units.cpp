@@ -58,11 +58,16 @@ constexpr std::array kUnits{
     Unit{Dimension::kDensity, "kg_m3", "", 1},
     Unit{Dimension::kDensity, "g/cm3", "g/cm3", 1000},
     Unit{Dimension::kDensity, "g_cm3", "", 1000},
+    Unit{Dimension::kDensity, "kgm-3", "", 1},
+    Unit{Dimension::kDensity, "gcm-3", "", 1000},
+    Unit{Dimension::kDensity, "g/cc", "", 1000},
     Unit{Dimension::kDensity, "lb/ft3", "lb/ft3", kPoundPerCubicFoot},
     Unit{Dimension::kDensity, "lb_ft3", "", kPoundPerCubicFoot},
     Unit{Dimension::kDensity, "lbs/ft3", "", kPoundPerCubicFoot},
     Unit{Dimension::kDensity, "lbm/ft3", "", kPoundPerCubicFoot},
     Unit{Dimension::kDensity, "lb/cuft", "", kPoundPerCubicFoot},
+    Unit{Dimension::kDensity, "lbs/cuft", "", kPoundPerCubicFoot},
+    Unit{Dimension::kDensity, "lbm/cuft", "", kPoundPerCubicFoot},
     Unit{Dimension::kDensity, "pcf", "pcf", kPoundPerCubicFoot},
 };
 
@@ -78,8 +83,8 @@ std::string normal_form(const std::string& unit) {
       text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const auto& [what, with] :
        {std::pair{"_per_", "/"}, std::pair{"per", "/"}, std::pair{"\xC2\xB2", "2"}, std::pair{"^2", "2"},
-        std::pair{"\xC2\xB3", "3"}, std::pair{"^3", "3"}, std::pair{"cu.ft", "cuft"}, std::pair{"\xC2\xB5", "u"},
-        std::pair{"\xCE\xBC", "u"}, std::pair{"\"", "in"}})
+        std::pair{"\xE2\x81\xBB\xC2\xB3", "-3"}, std::pair{"\xC2\xB3", "3"}, std::pair{"^3", "3"},
+        std::pair{"cu.ft", "cuft"}, std::pair{"\xC2\xB5", "u"}, std::pair{"\xCE\xBC", "u"}, std::pair{"\"", "in"}})
     replace_all(text, what, with);
   return text;
 }
