@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -75,8 +76,31 @@ void refuse_other_cases(const std::vector<Run>& runs) {
   }
 }
 
-report::Replicate profiles_of(const Run& run, int bins) {
-  report::Replicate replicate{name_of_folder(run.folder), {}};
+// The same panel twice would narrow the band of the mean without any reason.
+void refuse_same_panels(const std::vector<Run>& runs) {
+  for (auto a = runs.begin(); a != runs.end(); ++a) {
+    for (auto b = a + 1; b != runs.end(); ++b) {
+      if (a->c.mat_file != b->c.mat_file || (a->c.mat_file.empty() && a->c.seed != b->c.seed)) continue;
+      const auto what =
+          a->c.mat_file.empty() ? fmt::format("run.seed = {}", a->c.seed) : fmt::format("mat.file = {}", a->c.mat_file);
+      throw InputError(fmt::format("{} and {} are the same panel ({}); replicates differ in run.seed or mat.file",
+                                   a->folder.string(), b->folder.string(), what));
+    }
+  }
+}
+
+// The folders' own names, or all their paths where two have the same name.
+std::vector<std::string> names_of(const std::vector<Run>& runs) {
+  std::set<std::string> names;
+  for (const auto& run : runs) names.insert(name_of_folder(run.folder));
+  std::vector<std::string> result;
+  for (const auto& run : runs)
+    result.push_back(names.size() == runs.size() ? name_of_folder(run.folder) : run.folder.string());
+  return result;
+}
+
+report::Replicate profiles_of(const Run& run, const std::string& name, int bins) {
+  report::Replicate replicate{name, {}};
   const auto hash = io::case_hash(run.c, io::Step::kPress);
   for (const double compaction : run.c.schedule.compactions) {
     const auto file = run.folder / "panels" / fmt::format("panel_{}.h5", compaction);
@@ -165,8 +189,10 @@ std::optional<Comparison> compare(const Arguments& a, const std::vector<profile:
 
 void write(const Comparison& c, const std::vector<profile::Mean>& means, const fs::path& folder) {
   fmt::print(
-      "measured: {} specimen(s), mean {:.1f} kg/m3; simulated at compaction {:.4g}: rms difference {:.1f} kg/m3\n",
-      c.specimens.size(), profile::mean_between(c.measured.profile(), 0, 1), c.simulated.compaction,
+      "measured: {} specimen(s), {:.2f} mm thick, mean {:.1f} kg/m3; simulated at compaction {:.4g} ({:.2f} mm): rms "
+      "difference {:.1f} kg/m3\n",
+      c.specimens.size(), c.measured.thickness_mm, profile::mean_between(c.measured.profile(), 0, 1),
+      c.simulated.compaction, c.simulated.thickness_mm,
       profile::rms_difference(c.simulated.profile(), c.measured.profile()));
   report::measured_table(c.specimens).write(folder / "measured.csv");
   report::comparison_table(means, c.measured).write(folder / "comparison.csv");
@@ -180,6 +206,7 @@ void profile_runs(const Arguments& a) {
   runs.reserve(a.runs.size());
   for (const auto& folder : a.runs) runs.push_back(open_run(folder));
   refuse_other_cases(runs);
+  refuse_same_panels(runs);
   const fs::path folder =
       a.folder.empty() ? fs::path("runs") / (name_of_folder(a.runs.front()) + "-profile") : fs::path(a.folder);
   if (!a.force && fs::exists(folder / "profile.csv"))
@@ -187,7 +214,8 @@ void profile_runs(const Arguments& a) {
         fmt::format("{} holds results; --force overwrites them, -o names another folder", folder.string()));
   std::vector<report::Replicate> replicates;
   replicates.reserve(runs.size());
-  for (const auto& run : runs) replicates.push_back(profiles_of(run, a.bins));
+  const auto names = names_of(runs);
+  for (std::size_t i = 0; i < runs.size(); ++i) replicates.push_back(profiles_of(runs[i], names[i], a.bins));
   const auto means = means_of(replicates);
   const auto comparison = compare(a, means);
   fs::create_directories(folder);

@@ -3,6 +3,7 @@
 import csv
 import json
 import pathlib
+import shutil
 
 from program import SOURCE, DONE, check, expect_bad_input, finish, scratch, strandlab
 
@@ -71,6 +72,10 @@ def replicates():
     for name in ("profile", "against_compaction", "measured"):
         check(pathlib.Path(f"out/{name}.png").read_bytes()[:4] == b"\x89PNG", f"{name}.png")
     check("rms difference" in done.stdout, "the rms difference is shown")
+    shutil.copytree("run2", "elsewhere/run1")
+    done = strandlab("profile", "run1", "elsewhere/run1", "-o", "namesakes")
+    names = {r["replicate"] for r in rows("namesakes/profile_summary.csv")}
+    check(done.returncode == DONE and names >= {"run1", "elsewhere/run1"}, "folders of one name keep their paths")
     alone = strandlab("profile", "run1")
     check(alone.returncode == DONE and pathlib.Path("runs/run1-profile/profile.csv").exists(), f"one run: {alone.stderr}")
 
@@ -81,6 +86,8 @@ def bad_input():
     other = strandlab("press", "a.toml", "--set", "press.speed_m_s=20", "-o", "fast")
     check(other.returncode == DONE, other.stderr)
     expect_bad_input(["profile", "run1", "fast", "-o", "new"], ["run1 and fast", "press.speed_m_s = 16", "press.speed_m_s = 20"])
+    # The same panel twice would have a band of no width.
+    expect_bad_input(["profile", "run1", "run2", "run1", "-o", "new"], ["run1 and run1", "same panel", "run.seed = 1"])
     pathlib.Path("bad.csv").write_text("position_mm,density_kg_m3\n0,600\n0.5,x\n", encoding="utf-8")
     expect_bad_input(["profile", "run1", "-o", "new", "--measured", "bad.csv"], ["bad.csv:3", "'x' is not a number"])
     expect_bad_input(["profile", "run1", "-o", "new", "--measured", MEASURED, "--density-unit", "kg/m3"],
