@@ -18,7 +18,7 @@ namespace strandlab::app {
 namespace {
 
 struct Arguments {
-  std::string file, csv, off_axis = "uncoupled";
+  std::string file, csv, off_axis;
   std::vector<std::string> overrides;
   std::vector<double> compactions, compliances;
   theory::Question question;
@@ -33,7 +33,9 @@ theory::Question question_of(const Arguments& a) {
   q.compactions = a.compactions.empty() ? c.schedule.compactions : a.compactions;
   q.compliances_t = a.compliances.empty() ? c.test.compliance_t_mm_per_MPa : a.compliances;
   for (double& compliance : q.compliances_t) compliance = std::max(compliance, 0.0);  // as the virtual tests take it
-  q.off_axis = wood::off_axis_from_name(a.off_axis);
+  // Of a case the moduli that its virtual tests are drawn beside; without one those of free bars, as published.
+  const auto by_default = a.file.empty() ? wood::OffAxis::kUncoupled : c.off_axis;
+  q.off_axis = a.off_axis.empty() ? by_default : wood::off_axis_from_name(a.off_axis);
   return q;
 }
 
@@ -100,8 +102,10 @@ void add_theory(CLI::App& app) {
   command->add_option("--matrix-shear-MPa", a.question.matrix.shear_MPa, "its shear modulus")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--offaxis", a.off_axis, "rows off the grain: uncoupled (free to shear) or exact (plane strain)")
-      ->capture_default_str();
+  command->add_option(
+      "--offaxis", a.off_axis,
+      "rows as free bars (uncoupled) or as a section holds them, in plane strain (exact); default: as the "
+      "case has mat.offaxis, uncoupled without a case");
   command->add_option("--csv", a.csv, "also write a table to this file; - prints it instead");
   command->callback([arguments] { estimate(*arguments); });
 }
