@@ -130,13 +130,22 @@ Weight weigh(const Case& c, const mat::Mat& mat) {
 std::vector<std::string> derived_constants(const Case& c) {
   std::vector<std::string> lines;
   for (const auto& settings : c.materials) {
-    if (settings.species.empty()) continue;
-    const auto names = wood::constants_from_ratios(settings.material, wood::find_species(settings.species));
-    if (names.empty()) continue;
-    lines.push_back(
-        fmt::format("material {}: {} follow from E_L = {} MPa by the elastic ratios of {} (USDA Wood Handbook, tables "
-                    "5-1 and 5-2)",
-                    settings.material.name, fmt::join(names, ", "), settings.material.E_L, settings.species));
+    const auto& material = settings.material;
+    const auto base = find_material(c, settings.base);
+    const auto names = settings.species.empty()
+                           ? wood::constants_in_common(material, base)
+                           : wood::constants_from_ratios(material, wood::find_species(settings.species));
+    if (names.empty() || (settings.species.empty() && material.E_L == base.E_L)) continue;
+    const auto source =
+        settings.species.empty()
+            ? fmt::format(
+                  "are those of {} as they stand, of which E_L is {} MPa; with a species they would follow from "
+                  "E_L = {} MPa by its ratios",
+                  settings.base, base.E_L, material.E_L)
+            : fmt::format(
+                  "follow from E_L = {} MPa by the elastic ratios of {} (USDA Wood Handbook, tables 5-1 and 5-2)",
+                  material.E_L, settings.species);
+    lines.push_back(fmt::format("material {}: {} {}", material.name, fmt::join(names, ", "), source));
   }
   return lines;
 }

@@ -83,7 +83,7 @@ mat::Mat make_mat(const Case& c);
 // Its weight and what it is made of.
 Weight weigh(const Case& c, const mat::Mat& mat);
 // One line for each of the case's materials whose constants follow from a species' ratios: which, from what, and where
-// the ratios are from.
+// the ratios are from; or of which only E_L was changed: which constants did not follow it.
 std::vector<std::string> derived_constants(const Case& c);
 // The panel before pressing, with the material points of the case's grid. Throws InputError when it does not fit into
 // the memory of this machine.

@@ -48,7 +48,7 @@ Material with_ratios(Material m, const Species& s) {
   return m;
 }
 
-std::vector<std::string> constants_from_ratios(const Material& material, const Species& s) {
+std::vector<std::string> constants_in_common(const Material& a, const Material& b) {
   static constexpr std::array<std::pair<const char*, double Material::*>, 8> kConstants{{{"E_R", &Material::E_R},
                                                                                          {"E_T", &Material::E_T},
                                                                                          {"G_RL", &Material::G_RL},
@@ -57,12 +57,15 @@ std::vector<std::string> constants_from_ratios(const Material& material, const S
                                                                                          {"nu_RL", &Material::nu_RL},
                                                                                          {"nu_TL", &Material::nu_TL},
                                                                                          {"nu_TR", &Material::nu_TR}}};
-  const auto derived = with_ratios(material, s);
   std::vector<std::string> names;
   for (const auto& [name, constant] : kConstants) {
-    if (material.*constant == derived.*constant) names.emplace_back(name);
+    if (a.*constant == b.*constant) names.emplace_back(name);
   }
   return names;
+}
+
+std::vector<std::string> constants_from_ratios(const Material& material, const Species& s) {
+  return constants_in_common(material, with_ratios(material, s));
 }
 
 }  // namespace strandlab::wood

@@ -25,6 +25,9 @@ const Species& find_species(const std::string& name);
 // stiffer direction of each pair are taken; nu_RL, nu_TL and nu_TR follow by reciprocity, nu_ij/E_i = nu_ji/E_j.
 Material with_ratios(Material material, const Species& species);
 
+// The elastic constants but E_L (case key names without unit) that two materials have in common.
+std::vector<std::string> constants_in_common(const Material& a, const Material& b);
+
 // The elastic constants (case key names without unit: "E_R", "nu_TR") that are those of with_ratios(material, species).
 std::vector<std::string> constants_from_ratios(const Material& material, const Species& species);
 

@@ -113,6 +113,18 @@ TEST(CaseRead, MaterialsFollowFromTheirSpecies) {
   EXPECT_TRUE(derived_constants(Case()).empty());
 }
 
+// E_L alone, without a species, moves no other constant: that is said, and not of a material that keeps E_L.
+TEST(CaseRead, ConstantsThatDoNotFollowAreTold) {
+  const Case c = case_from_text(
+      "[materials.mine]\nE_L_MPa = 20000\nG_RT_MPa = 90\n[materials.heavy]\ndensity_kg_m3 = 500\n", "panel.toml");
+  EXPECT_EQ(c.materials[0].material.E_R, 914);
+  const auto told = derived_constants(c);
+  ASSERT_EQ(told.size(), 1U);
+  for (const auto* part : {"material mine: E_R, E_T,", "are those of poplar as they stand", "9936 MPa", "20000 MPa"})
+    EXPECT_NE(told[0].find(part), std::string::npos) << told[0];
+  EXPECT_EQ(told[0].find("G_RT"), std::string::npos) << told[0];
+}
+
 // A row has the thickness of its kind, the case's where the kind has none.
 TEST(CaseRead, KindsMayDifferInThicknessAndAngles) {
   const Case c = case_from_text(
