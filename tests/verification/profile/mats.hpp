@@ -21,16 +21,8 @@ struct Job {
   double speed_m_s = 16;
   bool symmetric = false;
   std::vector<double> compactions{0.4};
-  double surface_stiffness = 1;  // factor on moduli, yield stresses and hardening of surface strands
+  double surface_yield = 1, surface_stiffness = 1;  // softening factors of surface strands
 };
-
-inline wood::Material softened(double factor) {
-  wood::Material m = wood::library().front();
-  for (double* value : {&m.E_L, &m.E_R, &m.E_T, &m.G_RL, &m.G_TL, &m.G_RT, &m.Y_L, &m.Y_R, &m.Y_T, &m.S_RT, &m.S_RL,
-                        &m.S_TL, &m.hardening_K})
-    *value *= factor;
-  return m;
-}
 
 // OSB in the proportions of the main job, with strands and gaps scaled to the short window.
 inline mat::Mat osb(const Job& job, std::uint64_t seed) {
@@ -46,7 +38,8 @@ inline mat::Mat osb(const Job& job, std::uint64_t seed) {
 
 inline Panel<2> panel_of(const mat::Mat& mat, const Job& job) {
   const double height = mat.layer_thickness_mm / job.cells_through_strand;
-  return make_panel(mat, {{"surface", softened(job.surface_stiffness), 0}, {"core", softened(1), 90}},
+  const auto& poplar = wood::library().front();
+  return make_panel(mat, {{"surface", poplar, 0, job.surface_yield, job.surface_stiffness}, {"core", poplar, 90}},
                     height * job.cell_aspect / 2, 2 * job.cells_through_strand);
 }
 
