@@ -94,6 +94,7 @@ std::vector<std::string> names_of(const std::vector<Run>& runs) {
   std::set<std::string> names;
   for (const auto& run : runs) names.insert(name_of_folder(run.folder));
   std::vector<std::string> result;
+  result.reserve(runs.size());
   for (const auto& run : runs)
     result.push_back(names.size() == runs.size() ? name_of_folder(run.folder) : run.folder.string());
   return result;
@@ -121,7 +122,14 @@ std::vector<profile::Mean> means_of(const std::vector<report::Replicate>& replic
   for (std::size_t i = 0; i < replicates.front().states.size(); ++i) {
     std::vector<profile::Profile> states;
     states.reserve(replicates.size());
-    for (const auto& replicate : replicates) states.push_back(replicate.states[i]);
+    for (const auto& replicate : replicates) {
+      states.push_back(replicate.states[i]);
+      if (states.back().bins() == states.front().bins()) continue;
+      throw InputError(
+          fmt::format("{} and {} have {} and {} bins through the thickness, one cell high each; --bins gives all the "
+                      "same number",
+                      replicates.front().name, replicate.name, states.front().bins(), states.back().bins()));
+    }
     means.push_back(profile::mean(states));
   }
   return means;

@@ -86,6 +86,15 @@ def bad_input():
     other = strandlab("press", "a.toml", "--set", "press.speed_m_s=20", "-o", "fast")
     check(other.returncode == DONE, other.stderr)
     expect_bad_input(["profile", "run1", "fast", "-o", "new"], ["run1 and fast", "press.speed_m_s = 16", "press.speed_m_s = 20"])
+    # Mat files may differ in their rows: a cell is no common bin then.
+    for rows_of in (2, 3):
+        layers = [{"role": "surface", "strands": [{"x0": 0, "x1": 5}]}] * rows_of
+        pathlib.Path(f"m{rows_of}.json").write_text(json.dumps({"length_mm": 5, "layer_thickness_mm": 0.8, "layers": layers}), encoding="utf-8")
+        done = strandlab("press", "a.toml", "--set", f"mat.file=m{rows_of}.json", "--set", "press.compactions=[0]", "-o", f"rows{rows_of}")
+        check(done.returncode == DONE, done.stderr)
+    expect_bad_input(["profile", "rows2", "rows3", "-o", "new"], ["rows2 and rows3 have 4 and 6 bins", "--bins"])
+    check(strandlab("profile", "rows2", "rows3", "-o", "new", "--bins", "5").returncode == DONE, "--bins makes them alike")
+    shutil.rmtree("new")
     # The same panel twice would have a band of no width.
     expect_bad_input(["profile", "run1", "run2", "run1", "-o", "new"], ["run1 and run1", "same panel", "run.seed = 1"])
     pathlib.Path("bad.csv").write_text("position_mm,density_kg_m3\n0,600\n0.5,x\n", encoding="utf-8")
