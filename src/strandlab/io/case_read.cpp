@@ -392,6 +392,22 @@ void check_kind(const KindSettings& kind, const std::vector<Given>& given, const
   }
 }
 
+// A kind that no row is of is most likely the misspelt name of another, whose keys would have no effect.
+void refuse_unused_kinds(const Case& c, const mat::Layup& layup, const std::vector<Given>& given,
+                         const std::string& source) {
+  std::vector<std::string> names{"surface", "core"};
+  for (const auto& row : layup.rows) {
+    if (std::find(names.begin(), names.end(), row.kind) == names.end()) names.push_back(row.kind);
+  }
+  for (const auto& kind : c.kinds) {
+    if (std::find(names.begin(), names.end(), kind.name) != names.end()) continue;
+    const auto near = nearest(kind.name, names);
+    throw InputError(fmt::format("{}: [kinds.{}]: no row in mat.rows is of this kind{} Kinds of rows: {}",
+                                 where_of(given, source, {"kinds", kind.name, ""}), kind.name,
+                                 near.empty() ? "." : fmt::format("; did you mean {}?", near), quoted_list(names)));
+  }
+}
+
 void check_case(const Case& c, const std::vector<Given>& given, const std::string& source) {
   for (const auto& kind : c.kinds) check_kind(kind, given, source);
   for (const auto& settings : c.materials) {
@@ -412,11 +428,13 @@ void check_case(const Case& c, const std::vector<Given>& given, const std::strin
                                    wood::name(kind.material.law), e.what()));
     }
   }
+  mat::Layup rows;
   try {
-    layup(c);
+    rows = layup(c);
   } catch (const InputError& e) {
     throw InputError(fmt::format("{}: mat.rows: {}", where_of(given, source, {"mat", "rows"}), e.what()));
   }
+  if (c.mat_file.empty()) refuse_unused_kinds(c, rows, given, source);
 }
 
 // Base materials before their constants, E_L before the species whose ratios it scales, those before the constants they

@@ -194,6 +194,8 @@ TEST(CaseRead, BadInputIsAnsweredByFileLineKeyGivenAndAllowed) {
        {"one of tension, bending_end_rotation, bending_end_couple", "did you mean tension?"}},
       {"[kinds.core]\nlaw = \"crushin\"",
        {"panel.toml:2", "kinds.core.law = \"crushin\"", "one of hill, crushing", "did you mean crushing?"}},
+      {"[kinds.surfce]\nlaw = \"crushing\"",
+       {"panel.toml:2", "[kinds.surfce]", "no row in mat.rows is of this kind", "did you mean surface?"}},
       {"[mat]\noffaxis = \"exac\"", {"panel.toml:2", "one of exact, uncoupled", "did you mean exact?"}},
       {"[materials.m]\ncrushing_c = 1.5", {"panel.toml:2", "materials.m.crushing_c = 1.5", "from -1 to 1"}},
       {"[materials.m]\ndensity_kg_m3 = 1600\n[kinds.core]\nmaterial = \"m\"\nlaw = \"crushing\"",
