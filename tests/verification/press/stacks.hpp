@@ -49,8 +49,8 @@ Strand<Dim> strand(const wood::Material& material, double angle_deg, int row, co
   return s;
 }
 
-// A confined strand (no strain along and across) under compaction C, compression positive, MPa (physics.md 1.1 and 1.3
-// with Y_R = Y_T = Y, Y_L infinite). There the yield function is |s_R - s_T|/Y, and the flow moves strain from R to T:
+// A confined strand (no strain along and across) under compaction C, compression positive, MPa, by Hill's law with
+// Y_R = Y_T = Y, Y_L infinite. There the yield function is |s_R - s_T|/Y, and the flow moves strain from R to T:
 // one unknown p = -eps_p_R = eps_p_T = alpha. Kirchhoff stress tau = C0 (eps - eps_p), Cauchy tau/J, and
 //   |s_R - s_T| = Y + K p^n
 // which is solved for p by bisection. The stiffness comes from the nine constants; nothing is taken from the engine.
