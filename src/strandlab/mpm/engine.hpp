@@ -165,11 +165,4 @@ class Engine {
   std::unique_ptr<Impl> impl_;
 };
 
-// GIMP shape functions of one axis for a particle at offset d cells from its central node, half-width r cells
-// (|d| <= 1/2, 0 < r <= 1/2): weights of nodes -1, 0, +1 and their derivatives per cell. Bardenhagen & Kober (2004).
-struct Gimp3 {
-  std::array<double, 3> w, g;
-};
-Gimp3 gimp(double d, double r);
-
 }  // namespace strandlab::mpm

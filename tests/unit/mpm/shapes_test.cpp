@@ -4,6 +4,7 @@
 #include <random>
 
 #include "strandlab/mpm/engine.hpp"
+#include "strandlab/mpm/shape_functions.hpp"
 
 namespace strandlab::mpm {
 namespace {

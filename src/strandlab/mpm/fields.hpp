@@ -1,0 +1,40 @@
+// The velocity fields of all bodies: where their nodes are and what these hold.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "strandlab/mpm/aligned.hpp"
+#include "strandlab/mpm/particles.hpp"
+#include "strandlab/mpm/windows.hpp"
+
+namespace strandlab::mpm {
+
+inline constexpr double kWindowDrift = 0.5;  // cells a point may move before it leaves its windows
+
+struct Fields {
+  std::vector<BodyWindows> windows;  // by body
+  PencilTable table;
+  AlignedArray nodes, surface;  // records of the fields and of the bodies' faces: see kernels.hpp
+};
+
+// Windows around the particles, their mirror images in the platens and the face points where these are now; all records
+// become zero. Throws RunError where a face point is further from its particle than any wood bears.
+template <int Dim>
+void lay_windows(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, const EngineState& state,
+                 Fields& fields);
+
+// What the kernels see of each body; valid until the windows are laid again.
+template <int Dim>
+std::vector<BodyView<Dim>> views_of(std::vector<Particles<Dim>>& bodies, Fields& fields);
+
+// In place of the grid update: all nodes take their velocity (mm/s at a point in mm) from outside.
+template <int Dim>
+void impose_velocity(const Frame<Dim>& f, const std::function<Vec<Dim>(const Vec<Dim>&)>& velocity, Fields& fields);
+
+// Mean number of fields at nodes that carry mass, after a grid update.
+double fields_per_node(const Fields& fields);
+
+std::size_t bytes(const Fields& fields);
+
+}  // namespace strandlab::mpm

@@ -1,0 +1,31 @@
+// Tractions on the faces of bodies, as forces on their nodes.
+#pragma once
+
+#include <vector>
+
+#include "strandlab/mpm/fields.hpp"
+
+namespace strandlab::mpm {
+
+template <int Dim>
+class Tractions {
+ public:
+  Tractions() = default;
+  explicit Tractions(const std::vector<Body<Dim>>& bodies);  // those of the bodies' faces
+
+  void set(std::size_t body, std::size_t face, const Vec<Dim>& traction);  // MPa
+  // Adds the forces to the records of nodes before the grid update.
+  void apply(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, Fields& fields) const;
+  // Adds their work on the displacements of the step, mJ: after the grid update.
+  void book(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, const Fields& fields, double& work) const;
+
+ private:
+  template <class Visit>
+  void each_node_under(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, const Fields& fields,
+                       Visit visit) const;
+
+  std::vector<double> tractions_;  // MPa, Dim for each of kMaxFaces faces of each body
+  bool any_ = false;
+};
+
+}  // namespace strandlab::mpm
