@@ -101,9 +101,13 @@ wood::Material poplar(wood::Law law, double density_kg_m3) {
   return m;
 }
 
+// Linear between the steps.
 double pressure_at(const std::vector<State>& curve, double compaction) {
-  for (const auto& s : curve) {
-    if (s.compaction >= compaction) return s.pressure;
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    const auto &before = curve[i - 1], &after = curve[i];
+    if (after.compaction < compaction) continue;
+    const double part = (compaction - before.compaction) / (after.compaction - before.compaction);
+    return before.pressure + part * (after.pressure - before.pressure);
   }
   return curve.back().pressure;
 }
