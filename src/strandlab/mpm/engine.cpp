@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "strandlab/core/error.hpp"
 #include "strandlab/core/thread_team.hpp"
 #include "strandlab/mpm/checks.hpp"
 #include "strandlab/mpm/fields.hpp"
@@ -315,6 +316,11 @@ void Engine<Dim>::set_gravity(const Vec<Dim>& g) {
 }
 template <int Dim>
 void Engine<Dim>::set_traction(int body, int face, const Vec<Dim>& traction) {
+  const auto& bodies = impl_->bodies;
+  if (body < 0 || body >= static_cast<int>(bodies.size()) || face < 0 ||
+      face >= static_cast<int>(bodies[static_cast<std::size_t>(body)].faces.size())) {
+    throw InputError(fmt::format("traction on face {} of body {}, which is not there", face, body));
+  }
   impl_->tractions.set(static_cast<std::size_t>(body), static_cast<std::size_t>(face), traction);
 }
 template <int Dim>

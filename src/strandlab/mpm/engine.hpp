@@ -124,10 +124,11 @@ class Engine {
   Engine(Engine&&) noexcept;
   Engine& operator=(Engine&&) noexcept;
 
-  void set_platens(const Platen& bottom, const Platen& top);        // positions and velocities for the steps to come
-  void set_platen_velocities(double bottom, double top);            // mm/s
-  void set_gravity(const Vec<Dim>& g);                              // mm/s^2
-  void set_traction(int body, int face, const Vec<Dim>& traction);  // MPa
+  void set_platens(const Platen& bottom, const Platen& top);  // positions and velocities for the steps to come
+  void set_platen_velocities(double bottom, double top);      // mm/s
+  void set_gravity(const Vec<Dim>& g);                        // mm/s^2
+  // MPa, on a face as Body has them. Throws InputError for a body or face that is not there.
+  void set_traction(int body, int face, const Vec<Dim>& traction);
   // Unstretched from now on, in place of those set before. Their stretch is not part of EngineState. The time step does
   // not know them: it must be below 2/omega of a spring between two nodes. Throws InputError for a body or particle
   // that is not there, a normal that is no unit vector, or a negative area or stiffness.

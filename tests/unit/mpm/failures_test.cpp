@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "strandlab/core/error.hpp"
@@ -81,6 +82,15 @@ TEST(Failure, ParticleStretchedOutOfProportion) {
   auto body = strand_of(0, kLength);
   body.F[0](0, 0) = 50;  // in the strand's bottom left corner: a point of its end face lies 25 spacings outside
   expect_says(failure_of(body), {"step 0", "surface strand in row 1 at (", "stretched out of all proportion"});
+}
+
+TEST(Failure, TractionOnAFaceThatIsNotThere) {
+  auto engine = engine_of({strand_of(0, kLength)});
+  engine.set_traction(0, 3, Vec<2>(1, 0));
+  for (const auto& [body, face] : {std::pair{1, 0}, {-1, 0}, {0, 4}, {0, -1}}) {
+    expect_says(test::message_of<InputError>([&, b = body, f = face] { engine.set_traction(b, f, Vec<2>::Zero()); }),
+                {"face " + std::to_string(face) + " of body " + std::to_string(body), "not there"});
+  }
 }
 
 // As many as a node holds go on; one more is an error, not a body forgotten.
