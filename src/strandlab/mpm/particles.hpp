@@ -54,6 +54,15 @@ struct Particles {
     return F;
   }
 
+  // Half-width (mm) along an axis of a particle's domain, or of one with other half-edges at formation, as in the
+  // kernels: that of the edge that reaches furthest along it.
+  static double half_width(const double* d, int axis, const Vec<Dim>& half_edges) {
+    double width = 0;
+    for (int b = 0; b < Dim; ++b)
+      width = std::max(width, std::abs(d[(C::F + axis * Dim + b) * kBlock]) * half_edges[b]);
+    return width;
+  }
+  double half_width(const double* d, int axis) const { return half_width(d, axis, 0.5 * spacing); }
   template <class Visit>  // visit(number in the Body, position, its x component)
   void each(Visit visit) const {
     for (int b = 0; b < blocks; ++b) {

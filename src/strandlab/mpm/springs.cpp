@@ -41,7 +41,7 @@ void each_spring_node(const typename Spring<Dim>::End& end, const std::vector<Pa
   for (int a = 0; a < Dim; ++a) {
     double ride = 0;
     for (int b = 0; b < Dim; ++b) ride += d[(C::F + a * Dim + b) * kBlock] * end.offset[b];
-    const double reach = 0.5 * bodies[end.body].spacing[a] * std::abs(d[(C::F + a * Dim + a) * kBlock]);
+    const double reach = bodies[end.body].half_width(d, a);
     const double x = d[(C::x + a) * kBlock] + std::clamp(ride, -reach, reach);
     const double xi = (x - f.origin[a]) * f.inverse_cell[a];
     node[a] = static_cast<int>(std::floor(xi));

@@ -21,8 +21,7 @@ PointStencil<Dim> face_stencil(const Particles<Dim>& body, const double* d, cons
     for (int b = 0; b < Dim; ++b) x += d[(C::F + a * Dim + b) * kBlock] * offset[b];
     const double xi = (x - f.origin[a]) * f.inverse_cell[a];
     s.node[a] = static_cast<int>(std::lround(xi));
-    const double width =
-        (0.5 * body.spacing[a] - std::abs(offset[a])) * std::abs(d[(C::F + a * Dim + a) * kBlock]) * f.inverse_cell[a];
+    const double width = body.half_width(d, a, 0.5 * body.spacing - offset.cwiseAbs()) * f.inverse_cell[a];
     double from_node = xi - s.node[a];
     if (std::abs(from_node) < 1e-9) from_node = 0;  // a face on a grid line acts on that line alone
     if (width > 1e-3) {

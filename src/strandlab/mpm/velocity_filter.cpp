@@ -15,8 +15,7 @@ PointStencil<Dim> stencil_at(const Particles<Dim>& body, const double* d, const 
   for (int a = 0; a < Dim; ++a) {
     const double xi = (x[a] - f.origin[a]) * f.inverse_cell[a];
     s.node[a] = static_cast<int>(std::lround(xi));
-    const double stretch = std::abs(d[(Component<Dim>::F + a * Dim + a) * kBlock]);
-    const double r = std::clamp(0.5 * body.spacing[a] * stretch * f.inverse_cell[a], 1e-3, 0.5);
+    const double r = std::clamp(body.half_width(d, a) * f.inverse_cell[a], 1e-3, 0.5);
     s.axis[a] = gimp(xi - s.node[a], r);
   }
   return s;

@@ -130,12 +130,11 @@ void gather(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame
   for (int b = tile.block_begin; b < tile.block_end; ++b) {
     double* block = body.blocks + b * stride;
     prefetch(block, stride);
-    Pack x[Dim], F[Dim * Dim], stretch[Dim];
+    Pack x[Dim], F[Dim * Dim];
     load_packs(block, x);
     load_packs(block + C::F * kBlock, F);
-    diagonal<Dim>(F, stretch);
     Stencil<Dim> s;
-    stencil_at<Dim>(x, stretch, body.half_size, frame, s);
+    stencil_at<Dim>(x, F, body.half_size, frame, s);
     lap(result.ticks[0]);
     Motion<Dim> motion;
     gather_motion(s, body.window, nodes, lanes[b], motion);

@@ -94,16 +94,15 @@ STRANDLAB_INLINE void scatter_mirror(const Pack (&x)[Dim], const Pack (&v)[Dim],
   const Pack depth = absolute(x[y] - frame.platen[k].position) * frame.inverse_cell[y];
   const Mask close = depth < kMirrorDepth;
   if (!any(close)) return;
-  Pack mx[Dim], mv[Dim], mF[Dim * Dim], stretch[Dim], mtau[6];
+  Pack mx[Dim], mv[Dim], mF[Dim * Dim], mtau[6];
   for (int a = 0; a < Dim; ++a) {
     mx[a] = a == y ? 2 * frame.platen[k].position - x[a] : x[a];
     mv[a] = a == y ? 2 * frame.platen[k].velocity - v[a] : v[a];
     for (int b = 0; b < Dim; ++b) mF[a * Dim + b] = (a == y) == (b == y) ? F[a * Dim + b] : -F[a * Dim + b];
   }
   for (int c = 0; c < (Dim == 2 ? 4 : 6); ++c) mtau[c] = c == 3 || c == 4 ? -tau[c] : tau[c];  // 13 and 23 change sign
-  diagonal<Dim>(mF, stretch);
   Stencil<Dim> s;
-  stencil_at<Dim>(mx, stretch, body.half_size, frame, s);
+  stencil_at<Dim>(mx, mF, body.half_size, frame, s);
   Rows<Dim> rows;
   prepare(mv, mF, mtau, body.mass, body.volume, rows);
   for (int l = 0; l < lanes; ++l) {
@@ -145,8 +144,7 @@ STRANDLAB_INLINE void scatter_surface(const SurfaceView<Dim>& face, int pack, co
   for (int a = 0; a < Dim * Dim; ++a) F[a] = collect(Component<Dim>::F + a);
   load_packs(face.offset + static_cast<long>(pack) * Dim * kBlock, offset);
   load_packs(face.area + static_cast<long>(pack) * Dim * kBlock, area);
-  Pack stretch[Dim], N[Dim];
-  diagonal<Dim>(F, stretch);
+  Pack N[Dim];
   current_area(F, area, N);
   Pack size2{}, along{};
   for (int a = 0; a < Dim; ++a) {
@@ -157,7 +155,7 @@ STRANDLAB_INLINE void scatter_surface(const SurfaceView<Dim>& face, int pack, co
     along += N[a] * x[a];
   }
   Stencil<Dim> s;
-  stencil_at<Dim>(x, stretch, body.half_size, frame, s);
+  stencil_at<Dim>(x, F, body.half_size, frame, s);
   Pack row[8] = {};
   for (int a = 0; a < Dim; ++a) row[a] = N[a];
   row[Dim] = square_root(size2);
@@ -195,14 +193,13 @@ void scatter(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& fram
   for (int b = tile.block_begin; b < tile.block_end; ++b) {
     const double* block = body.blocks + b * stride;
     prefetch(block, stride);
-    Pack x[Dim], v[Dim], F[Dim * Dim], tau[6], stretch[Dim];
+    Pack x[Dim], v[Dim], F[Dim * Dim], tau[6];
     load_packs(block, x);
     load_packs(block + C::v * kBlock, v);
     load_packs(block + C::F * kBlock, F);
     for (int k = 0; k < (Dim == 2 ? 4 : 6); ++k) tau[k] = load(block + (C::stress + k) * kBlock);
-    diagonal<Dim>(F, stretch);
     Stencil<Dim> s;
-    stencil_at<Dim>(x, stretch, body.half_size, frame, s);
+    stencil_at<Dim>(x, F, body.half_size, frame, s);
     lap(result.ticks[0]);
     Rows<Dim> rows;
     prepare(v, F, tau, body.mass, body.volume, rows);

@@ -35,16 +35,20 @@ STRANDLAB_INLINE void gimp_axis(const Pack& d, const Pack& r, double inverse_cel
   store(g[2], gr * inverse_cell);
 }
 
+// The domain's half-width along an axis is that of the edge that reaches furthest along it: the diagonal of F alone
+// would shrink the domain of a particle that has turned far to a point, and a point that passes a node leaves it with a
+// force and hardly any mass.
 template <int Dim>
-STRANDLAB_INLINE void stencil_at(const Pack (&x)[Dim], const Pack (&stretch)[Dim], const double* half_size,
+STRANDLAB_INLINE void stencil_at(const Pack (&x)[Dim], const Pack (&F)[Dim * Dim], const double* half_size,
                                  const Frame<Dim>& frame, Stencil<Dim>& s) {
   for (int a = 0; a < Dim; ++a) {
     const Pack xi = (x[a] - frame.origin[a]) * frame.inverse_cell[a];
     const Pack rounded = shifted(xi);
     const Mask node = bits(rounded);
     __builtin_memcpy(s.node[a], &node, sizeof node);
-    const Pack r =
-        smaller(larger(absolute(stretch[a]) * (half_size[a] * frame.inverse_cell[a]), splat(1e-3)), splat(0.5));
+    Pack r = splat(1e-3);
+    for (int b = 0; b < Dim; ++b) r = larger(absolute(F[a * Dim + b]) * (half_size[b] * frame.inverse_cell[a]), r);
+    r = smaller(r, splat(0.5));
     gimp_axis(xi - (rounded - kRounder), r, frame.inverse_cell[a], s.w[a], s.g[a]);
   }
 }
@@ -82,11 +86,6 @@ STRANDLAB_INLINE double pencil_gradient(const Stencil<Dim>& s, int axis, int q, 
 }
 template <int Dim>
 inline constexpr int kPencils = Dim == 2 ? 3 : 9;
-
-template <int Dim>
-STRANDLAB_INLINE void diagonal(const Pack (&F)[Dim * Dim], Pack (&d)[Dim]) {
-  for (int a = 0; a < Dim; ++a) d[a] = F[a * Dim + a];
-}
 
 }  // namespace
 }  // namespace strandlab::mpm::STRANDLAB_ISA
