@@ -29,8 +29,8 @@ struct MeasuredColumns {
 // density column is a specimen, and so are rows with another text in a column named specimen, sample or board, rows
 // from where the positions start again, and rows below a repetition of the header. Rows without both numbers are passed
 // over. Throws InputError with the line and the reason for what is no profile: no such column, no unit, text for a
-// number, a density that no wood has (outside 0..2000 kg/m^3, or nowhere more than 100), positions that go back and
-// forth, fewer than five readings of a specimen.
+// number, a density that no wood has (below -50, the noise of air, or above 2000 kg/m^3, or nowhere more than 100),
+// positions that go back and forth, fewer than five readings of a specimen.
 std::vector<Specimen> read_measured(const std::filesystem::path& file, const MeasuredColumns& columns = {});
 // The same for a text in memory; `source` opens the messages.
 std::vector<Specimen> measured_from_text(const std::string& text, const std::string& source,
