@@ -1,6 +1,8 @@
 // A body's particles as the engine keeps them: blocks of eight, tile by tile, and the points of its faces.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -63,6 +65,7 @@ struct Particles {
     return width;
   }
   double half_width(const double* d, int axis) const { return half_width(d, axis, 0.5 * spacing); }
+
   template <class Visit>  // visit(number in the Body, position, its x component)
   void each(Visit visit) const {
     for (int b = 0; b < blocks; ++b) {

@@ -18,7 +18,7 @@ using wood::OffAxis;
 struct Piece {
   wood::Material material;
   double angle_deg = 0;
-  double length_mm = 0;  // any unit: shares of the row's wood
+  double length_mm = 0;  // its share of the row's wood counts
 };
 
 // One row of strands.

@@ -114,8 +114,9 @@ struct CrushingLaw {
       const auto crushes = 1.0 - J_p > x0_;
       Hardened<T> h;
       h.history = Ops::select(crushes, 1.0 - J_p, x0_);
-      if (!near(h)) h.radius = Ops::crushing_radius(c_, h.history, h.slope);
-      h.slope = Ops::select(crushes, h.slope * J_p * (flow.q * flow.dvolume), T{});
+      T by_x;  // d radius / dx
+      if (!near(h.history, h.radius, by_x)) h.radius = Ops::crushing_radius(c_, h.history, by_x);
+      h.slope = Ops::select(crushes, by_x * J_p * (flow.q * flow.dvolume), T{});
       return h;
     }
 
@@ -140,14 +141,14 @@ struct CrushingLaw {
 
     // H and its derivative a small step from x0, by the series of the power: to 1e-13 of H. False where a step is
     // larger than they bear: dx/x0 or dx/(x_L - x0) of 1 % and more, and always at x0 = 0 and beyond the limit.
-    [[gnu::always_inline]] bool near(Hardened<T>& h) const {
-      const T u = (h.history - x0_) * scale_;
+    [[gnu::always_inline]] bool near(const T& x, T& radius, T& by_x) const {
+      const T u = (x - x0_) * scale_;
       if (Ops::any(!((u >= 0.0) & (u * room_ < 0.01) & (u * x0_ < 0.01)))) return false;
       const T u2 = u * u;
       const T power = (power_[0] + u * power_[1]) +
                       u2 * ((power_[2] + u * power_[3]) + u2 * ((power_[4] + u * power_[5]) + u2 * power_[6]));
-      h.radius = 1.0 + c_.h1 * h.history + power;
-      h.slope = c_.h1 + scale_ * ((power_[1] + 2.0 * u * power_[2]) + u2 * (3.0 * power_[3]));  // it only steers
+      radius = 1.0 + c_.h1 * x + power;
+      by_x = c_.h1 + scale_ * ((power_[1] + 2.0 * u * power_[2]) + u2 * (3.0 * power_[3]));  // it only steers
       return true;
     }
 
