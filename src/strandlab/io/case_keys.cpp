@@ -319,7 +319,7 @@ void add_material_keys(std::vector<Key>& t) {
 void add_press_keys(std::vector<Key>& t) {
   t.push_back(key(
       "press.speed_m_s", "m/s", {.lo = 0, .hi = 1000, .lo_open = true},
-      "closing speed of the platens; up to 16 (1 with the crushing law) panels from 10 % compaction on do not depend "
+      "closing speed of the platens; up to 16 (1 with the crushing law) panels from 20 % compaction on do not depend "
       "on it",
       [](auto& c) -> auto& { return c.schedule.speed_m_s; }));
   t.push_back(key(
