@@ -106,7 +106,9 @@ struct EngineState {
   double time_s = 0;
   double time_step_s = 0;
   Platen bottom, top;
-  Energies energies;  // totals only; kinetic and elastic follow from the bodies
+  // Totals. The engine leaves kinetic and elastic alone, since they follow from the bodies: a checkpoint holds them as
+  // energies() gave them.
+  Energies energies;
 };
 
 struct Timing {  // s, summed over threads; 0 unless Options::profile

@@ -13,9 +13,6 @@ namespace strandlab::press {
 namespace {
 
 constexpr double kMmPerM = 1000;
-constexpr double kWarnFrom = 0.05;      // compaction from which inertia is judged
-constexpr double kKineticLimit = 0.05;  // of internal energy
-constexpr double kForceLimit = 0.10;    // difference of the platens' forces
 
 double wall_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -146,7 +143,7 @@ class Press {
     state_.balance_bottom += engine_->bottom_force() * dt;
     if (state_.balance_time_s < 2 * transit_s_) return;
     const double top = state_.balance_top, bottom = state_.balance_bottom;
-    if (compaction() > kWarnFrom && top + bottom > 0) {
+    if (compaction() > kJudgedFrom && top + bottom > 0) {
       state_.worst_imbalance = std::max(state_.worst_imbalance, std::abs(top - bottom) / (0.5 * (top + bottom)));
     }
     state_.balance_time_s = state_.balance_top = state_.balance_bottom = 0;
@@ -176,7 +173,7 @@ class Press {
     r.contact_mJ = e.contact;
     r.filter_mJ = e.filter;
     r.platen_work_mJ = e.platen_work;
-    if (r.compaction > kWarnFrom && r.internal_mJ() > 0) {
+    if (r.compaction > kJudgedFrom && r.internal_mJ() > 0) {
       state_.worst_kinetic = std::max(state_.worst_kinetic, engine_->mean_motion_energy() / r.internal_mJ());
     }
     state_.records.push_back(r);
@@ -231,6 +228,7 @@ class Press {
   Checkpoint<Dim> checkpoint() {
     engine_->write(state_.panel);
     state_.engine = engine_->state();
+    state_.engine.energies = engine_->energies();
     return state_;
   }
 
@@ -250,7 +248,7 @@ class Press {
   double quiet_from() const {
     double last = 0;
     for (const auto& r : state_.records) {
-      if (r.compaction > kWarnFrom && r.kinetic_mJ > kKineticLimit * r.internal_mJ()) last = r.compaction;
+      if (r.compaction > kJudgedFrom && r.kinetic_mJ > kKineticLimit * r.internal_mJ()) last = r.compaction;
     }
     return last;
   }
@@ -265,7 +263,8 @@ class Press {
       top += r.force_top_N * span;
       bottom += r.force_bottom_N * span;
       if (1e-3 * time_ms < 2 * transit_s_) continue;
-      if (r.compaction > kWarnFrom && std::abs(top - bottom) > kForceLimit * 0.5 * (top + bottom)) last = r.compaction;
+      if (r.compaction > kJudgedFrom && std::abs(top - bottom) > kForceLimit * 0.5 * (top + bottom))
+        last = r.compaction;
       time_ms = top = bottom = 0;
     }
     return last;
@@ -292,7 +291,7 @@ class Press {
                       "evenly. Lower press.speed_m_s.",
                       100 * state_.worst_imbalance, limit(kForceLimit, even_from())));
     }
-    if (!state_.records.empty() && std::abs(state_.records.back().balance_error()) > 0.01) {
+    if (!state_.records.empty() && std::abs(state_.records.back().balance_error()) > kBalanceLimit) {
       w.push_back(fmt::format("The energy balance is off by {:.1f} % of the platens' work.",
                               100 * state_.records.back().balance_error()));
     }

@@ -237,6 +237,26 @@ TEST(Record, BalanceIsWorkMinusAllTerms) {
   EXPECT_DOUBLE_EQ(r.internal_mJ(), 7);
 }
 
+// A checkpoint holds the energies of its moment: those of the record made in the same step. (The engine's running
+// totals leave out kinetic and elastic energy, which follow from the particles.)
+TEST(Checkpoint, HoldsTheEnergiesOfItsMoment) {
+  press::Sink<2> sink;
+  std::vector<press::Checkpoint<2>> checkpoints;
+  sink.checkpoint = [&](const press::Checkpoint<2>& c) { checkpoints.push_back(c); };
+  const auto panel = rows(2, 2 * kRow);
+  press::press<2>(panel, schedule_to({0.02, 0.05}), small_setup(panel), sink);
+  ASSERT_EQ(checkpoints.size(), 2U);
+  for (const auto& c : checkpoints) {
+    const auto& e = c.engine.energies;
+    const auto& r = c.records.back();
+    EXPECT_GT(e.elastic, 0);
+    EXPECT_EQ(e.kinetic, r.kinetic_mJ);
+    EXPECT_EQ(e.elastic, r.elastic_mJ);
+    EXPECT_EQ(e.plastic, r.plastic_mJ);
+    EXPECT_EQ(e.platen_work, r.platen_work_mJ);
+  }
+}
+
 // Frames come at even compactions, do not change the pressing, and those beyond a checkpoint come again after a resume.
 TEST(Frames, AreEvenAndComeAgainAfterAResume) {
   const auto panel = rows(2, 2 * kRow);
