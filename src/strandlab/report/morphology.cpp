@@ -204,6 +204,12 @@ Histogram thickness_strain_histogram(const Panel<2>& panel) {
   return histogram("strand_thickness_strain", strains, weights, -0.91, 1.01, 96);
 }
 
+QuantityWords words_of(const std::string& quantity) {
+  if (quantity == "grain_angle_deg") return {"Grain angle", "grain angle against the panel, °", 1};
+  if (quantity == "strand_thickness_strain") return {"Thickness strain of the strands", "thickness strain, %", 100};
+  throw std::invalid_argument(quantity + ": no quantity of a histogram");
+}
+
 Areas areas(const Panel<2>& panel) {
   const Mesh mesh = mesh_of(panel);
   const double whole = panel.length_mm * panel.thickness_mm();
@@ -225,18 +231,21 @@ Areas areas(const Panel<2>& panel) {
   return a;
 }
 
-Morphology morphology(const Panel<2>& panel) {
-  return {panel.compaction(), grain_angle_histogram(panel), thickness_strain_histogram(panel), areas(panel)};
+Morphology morphology(const Panel<2>& panel, double compaction) {
+  return {compaction, panel.compaction(), grain_angle_histogram(panel), thickness_strain_histogram(panel),
+          areas(panel)};
 }
 
 io::CsvTable morphology_table(const std::vector<Morphology>& states) {
-  io::CsvTable table({"compaction", "overlap_fraction", "largest_overlap_fraction", "void_fraction", "outside_fraction",
-                      "grain_angle_mean_deg", "grain_angle_sd_deg", "grain_angle_lowest_deg", "grain_angle_highest_deg",
-                      "strand_thickness_strain_mean", "strand_thickness_strain_sd", "strand_thickness_strain_lowest",
+  io::CsvTable table({"compaction", "compaction_reached", "overlap_fraction", "largest_overlap_fraction",
+                      "void_fraction", "outside_fraction", "grain_angle_mean_deg", "grain_angle_sd_deg",
+                      "grain_angle_lowest_deg", "grain_angle_highest_deg", "strand_thickness_strain_mean",
+                      "strand_thickness_strain_sd", "strand_thickness_strain_lowest",
                       "strand_thickness_strain_highest"});
   for (const auto& s : states) {
-    std::vector<io::CsvCell> row{s.compaction, s.areas.overlap, s.areas.largest_overlap, s.areas.void_fraction(),
-                                 s.areas.outside};
+    std::vector<io::CsvCell> row{
+        s.compaction,   s.compaction_reached, s.areas.overlap, s.areas.largest_overlap, s.areas.void_fraction(),
+        s.areas.outside};
     for (const auto* h : {&s.grain_angle, &s.thickness_strain}) {
       for (const double value : {h->mean, h->sd, h->lowest, h->highest}) row.emplace_back(value);
     }

@@ -159,19 +159,21 @@ TEST(Histogram, SteepestGrainOfWaves) {
   EXPECT_NEAR(h.mean, 0, 1e-9);
 }
 
+// A state is named by the compaction that was asked for, in every table; what was reached stands beside it once.
 TEST(Morphology, TablesHoldEveryState) {
   auto panel = panel_of({flat_strand(0, 4, 0, 1, 13, 3), flat_strand(2, 5, 0.75, 1.75, 7, 4)}, 10, 4);
-  const auto before = morphology(panel);
+  const auto before = morphology(panel, 0);
   panel.top_mm = 3;
-  const auto after = morphology(panel);
+  const auto after = morphology(panel, 0.2);
   const auto summary = morphology_table({before, after});
-  EXPECT_EQ(summary.columns().size(), 13U);
+  EXPECT_EQ(summary.columns().size(), 14U);
   EXPECT_EQ(summary.rows(), 2U);
-  EXPECT_EQ(summary.columns()[5], "grain_angle_mean_deg");
-  EXPECT_EQ(summary.columns()[9], "strand_thickness_strain_mean");
-  EXPECT_NE(summary.text().find("\n0.25,"), std::string::npos);
+  EXPECT_EQ(summary.columns()[6], "grain_angle_mean_deg");
+  EXPECT_EQ(summary.columns()[10], "strand_thickness_strain_mean");
+  EXPECT_NE(summary.text().find("\n0.2,0.25,"), std::string::npos);
   const auto bins = histogram_table({before, after});
   EXPECT_EQ(bins.rows(), 2U * (181U + 96U));
+  EXPECT_NE(bins.text().find("\n0.2,"), std::string::npos);
   EXPECT_NE(bins.text().find("0,grain_angle_deg,-0.5,0.5,1\n"), std::string::npos);
 }
 
