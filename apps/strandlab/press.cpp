@@ -15,6 +15,7 @@
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/io/vtk.hpp"
 #include "strandlab/report/density_profiles.hpp"
+#include "strandlab/report/findings.hpp"
 #include "strandlab/report/frames.hpp"
 #include "strandlab/report/morphology.hpp"
 #include "strandlab/report/plots.hpp"
@@ -139,7 +140,8 @@ void write_profiles(Journey& journey, const std::vector<Panel<2>>& panels, Conso
 }
 
 // Everything that follows from the panels and the record of the pressing.
-void write_report(Journey& journey, const std::vector<press::Record>& records, Console& console) {
+void write_report(Journey& journey, const std::vector<press::Record>& records, const std::vector<std::string>& warnings,
+                  Console& console) {
   const auto& folder = journey.folder;
   const auto panels = read_panels(journey);
   std::vector<io::PvdEntry> states;
@@ -147,12 +149,16 @@ void write_report(Journey& journey, const std::vector<press::Record>& records, C
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const double compaction = journey.c.schedule.compactions[i];
     states.push_back({compaction, folder.paraview_file(compaction).filename().string()});
-    shapes.push_back(report::morphology(panels[i]));
+    shapes.push_back(report::morphology(panels[i], compaction));
   }
   io::write_pvd(states, folder.file("paraview") / "panel.pvd");
   report::morphology_table(shapes).write(folder.file("morphology.csv"));
   report::histogram_table(shapes).write(folder.file("histograms.csv"));
   write_profiles(journey, panels, console);
+  auto findings = report::pressing_findings(records, warnings);
+  const auto shape = report::shape_findings(shapes);
+  findings.insert(findings.end(), shape.begin(), shape.end());
+  journey.folder.record(io::Step::kPress)["findings"] = report::to_json(findings);
   draw_pictures(journey, panels);
   warn_if(console, report::plot_stress(records, folder.file("pictures") / "stress.png"));
   warn_if(console, report::plot_grain_angles(shapes, folder.file("pictures") / "grain_angles.png"));
@@ -200,7 +206,7 @@ void do_press(Journey& journey, Console& console) {
       press::press(journey.panel, journey.c.schedule, setup, make_sink(journey, store, console), resume);
   for (const auto& warning : outcome.warnings) console.warn(warning);
   report::press_table(outcome.records).write(folder.file("press.csv"));
-  write_report(journey, outcome.records, console);
+  write_report(journey, outcome.records, outcome.warnings, console);
   folder.record(io::Step::kPress).update(summary(outcome, particles, threads));
   folder.set_finished(io::Step::kPress);
   console.say(fmt::format("press: {} steps in {}, {:.1f} M particle-steps/s -> {}", outcome.steps,

@@ -11,6 +11,7 @@
 #include "journey.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/io/checkpoint.hpp"
+#include "strandlab/report/findings.hpp"
 #include "strandlab/report/plots.hpp"
 #include "strandlab/report/result_tables.hpp"
 #include "strandlab/vtest/vtest.hpp"
@@ -39,6 +40,7 @@ Json to_json(double compaction, const vtest::Result& result, double wall_s) {
   }
   return {{"compaction", compaction},
           {"moduli", moduli},
+          {"strands", result.strands},
           {"floating_strands", result.floating_strands},
           {"glued_fraction", result.glued_fraction},
           {"unknowns", result.unknowns},
@@ -60,6 +62,15 @@ std::vector<report::PanelModulus> moduli_of(const Json& states) {
     }
   }
   return moduli;
+}
+
+std::vector<report::Finding> findings_of(const Json& states) {
+  std::vector<report::TestedState> tested;
+  for (const auto& state : states) {
+    tested.push_back({state.at("compaction"), !state.contains("not_testable"), state.at("floating_strands"),
+                      state.at("glued_fraction"), state.at("warnings")});
+  }
+  return report::test_findings(tested);
 }
 
 // Modulus against glue and against compaction for each test, with the closed-form models over them, and these models'
@@ -122,6 +133,10 @@ Json measure_state(const Journey& journey, const Panel<2>& panel, double compact
     return not_testable(compaction, error.what(), true, seconds_since(begin), console);
   }
   for (const auto& warning : result.warnings) console.warn(fmt::format("compaction {}: {}", compaction, warning));
+  if (result.floating_strands > 0) {
+    console.say(fmt::format("test: compaction {}: {} of {} strands are not glued to both loaded ends and are left out",
+                            compaction, result.floating_strands, result.strands));
+  }
   for (std::size_t i = 0; i < std::min(result.moduli.size(), journey.c.test.kinds.size()); ++i) {
     const auto& m = result.moduli[i];
     const auto shear_free =
@@ -189,6 +204,7 @@ void do_test(Journey& journey, Console& console) {
   folder.record(io::Step::kTest)["wall_s"] = wall_s;
   refuse_if_none_is_testable(states);
   write_plots(journey, moduli_of(states), console);
+  folder.record(io::Step::kTest)["findings"] = report::to_json(findings_of(states));
   folder.set_finished(io::Step::kTest);
   console.say(fmt::format("test: {} moduli -> {}", moduli_of(states).size(), folder.file("moduli.csv").string()));
 }

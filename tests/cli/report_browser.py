@@ -17,7 +17,7 @@ def hostile_page(page):
     run = data["run"]
     run["record"]["case_name"] = HOSTILE
     run["record"]["machine"]["host"] = HOSTILE
-    run["record"]["steps"]["press"]["warnings"] = [HOSTILE]
+    run["findings"] = [{"level": "warning", "text": HOSTILE}]
     run["case_text"] = HOSTILE
     for material in run["case"]["materials"]:
         material["name"] = HOSTILE

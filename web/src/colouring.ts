@@ -12,21 +12,11 @@ export interface Colouring {
   high: number;
 }
 
-interface Look {
-  label: string;
-  unit: string;
-  digits: number;
-  map: Rgb[];
-  diverging: boolean;
+// Colours of a field: those of one kind of quantity that can be told apart from the other maps on the page.
+const maps: Record<string, Rgb[]> = {density_kg_m3: [...viridis].reverse(), plastic_strain: cividis};
+function mapOf(field: {key: string; diverging: boolean}): Rgb[] {
+  return field.diverging ? blueWhiteRed : maps[field.key] ?? viridis;
 }
-
-const looks: Record<string, Look> = {
-  grain_angle_deg: {label: 'Grain angle', unit: '°', digits: 1, map: blueWhiteRed, diverging: true},
-  density_kg_m3: {label: 'Density', unit: 'kg/m³', digits: 0, map: [...viridis].reverse(), diverging: false},
-  plastic_strain: {label: 'Plastic strain', unit: '', digits: 3, map: cividis, diverging: false},
-  stress_through_MPa: {label: 'Stress through thickness', unit: 'MPa', digits: 2, map: blueWhiteRed, diverging: true},
-  stress_along_MPa: {label: 'Stress along panel', unit: 'MPa', digits: 1, map: blueWhiteRed, diverging: true},
-};
 
 export const byStrand = 'strand';
 
@@ -63,9 +53,8 @@ function shownRange(film: Film, frames: Frame[], index: number, diverging: boole
 // Colourings with ranges that suit these frames.
 export function colouringsOf(film: Film, frames = film.frames): Colouring[] {
   return film.fields.map((field, index) => {
-    const look = looks[field.key] ?? {label: field.key, unit: '', digits: 2, map: viridis, diverging: false};
-    const [low, high] = shownRange(film, frames, index, look.diverging);
-    return {key: field.key, label: look.label, unit: look.unit, digits: look.digits, map: look.map, low, high};
+    const [low, high] = shownRange(film, frames, index, field.diverging);
+    return {key: field.key, label: field.label, unit: field.unit, digits: field.digits, map: mapOf(field), low, high};
   });
 }
 

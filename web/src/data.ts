@@ -47,14 +47,6 @@ export interface MatData {
   layers: {role: string; thickness_mm?: number; strands: MatStrand[]}[];
 }
 
-export interface TestState {
-  compaction: number;
-  floating_strands: number;
-  glued_fraction: number;
-  warnings: string[];
-  not_testable?: string;
-}
-
 export interface RunRecord {
   strandlab?: string;
   git?: string;
@@ -72,9 +64,8 @@ export interface RunRecord {
       threads?: number;
       wall_s?: number;
       particle_steps_per_s?: number;
-      warnings?: string[];
     };
-    test?: {finished?: boolean; wall_s?: number; states?: TestState[]};
+    test?: {finished?: boolean; wall_s?: number};
   };
 }
 
@@ -87,13 +78,36 @@ export interface PackedFrame {
   glue: string;
 }
 
+// What cells can be coloured by; a cell's value is low + (high - low) byte/255.
+export interface Field {
+  key: string;
+  label: string;
+  unit: string;
+  digits: number;      // shown behind the point
+  diverging: boolean;  // colours symmetric about 0
+  low: number;
+  high: number;
+}
+
 export interface PackedFrames {
   quantum_mm?: number;
   length_mm?: number;
   initial_thickness_mm?: number;
   strands: {kind: string; row: number; angle_deg: number; points: [number, number]}[];
-  fields: {key: string; low: number; high: number}[];
+  fields: Field[];
   frames: PackedFrame[];
+}
+
+// What a run's numbers say, in the program's words.
+export interface Finding {
+  level: 'good' | 'note' | 'warning';
+  text: string;
+}
+
+// What names in the tables are called.
+export interface Words {
+  tests: Record<string, string>;
+  quantities: Record<string, {title: string; axis: string; factor: number}>;
 }
 
 export interface Run {
@@ -101,6 +115,8 @@ export interface Run {
   case_text: string;
   record: RunRecord;
   mat: MatData | null;
+  findings: Finding[];  // warnings first
+  words: Words;
   tables: Record<string, string>;
   frames: PackedFrames;
 }

@@ -1,11 +1,5 @@
 // Frames of a pressing, unpacked (src/strandlab/report/frames.hpp has the format).
-import type {PackedFrames} from './data';
-
-export interface Field {
-  key: string;
-  low: number;
-  high: number;
-}
+import type {Field, PackedFrames} from './data';
 
 export interface FilmStrand {
   kind: string;

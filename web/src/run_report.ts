@@ -2,7 +2,6 @@
 import {Chart, formatNumber, type Series} from './chart';
 import type {Run} from './data';
 import {downloadText, button, el, fileName} from './dom';
-import {findingsOf} from './findings';
 import {unpack} from './frames';
 import {layupFigure} from './layup';
 import {SectionView, type SectionOptions} from './section';
@@ -10,12 +9,8 @@ import {slipState, type SlipState} from './slip';
 import {parseCsv, Table} from './table';
 import {toggleTheme} from './theme';
 
-const testNames: Record<string, string> = {
-  tension: 'Tension', bending_end_rotation: 'Bending (end rotation)', bending_end_couple: 'Bending (end couple)',
-  bending_3_point: 'Bending (3 points)', bending_4_point: 'Bending (4 points)',
-};
-function nameOf(test: string): string {
-  return testNames[test] ?? test;
+function nameOf(run: Run, test: string): string {
+  return run.words.tests[test] ?? test;
 }
 
 function percent(compaction: number): string {
@@ -43,7 +38,7 @@ function tiles(run: Run): HTMLElement | null {
     const end = rows.where('compaction', rows.text('compaction')[rows.rows.length - 1]!);
     const compliance = end.numbers('compliance_t_mm_per_MPa');
     const i = compliance.indexOf(Math.min(...compliance));
-    facts.push([`${nameOf(test).replace(/ \(.*/, '')} modulus`, formatNumber(Number((end.numbers('modulus_MPa')[i]! / 1000).toPrecision(3))),
+    facts.push([`${nameOf(run, test).replace(/ \(.*/, '')} modulus`, formatNumber(Number((end.numbers('modulus_MPa')[i]! / 1000).toPrecision(3))),
       `GPa at ${percent(end.numbers('compaction')[i]!)}, ${compliance[i] === 0 ? 'perfect bond' : `1/Dₜ ${compliance[i]} mm/MPa`}`]);
   }
   return facts.length === 0 ? null : el('dl', {class: 'tiles'}, ...facts.map(([name, value, unit]) =>
@@ -65,7 +60,7 @@ function header(run: Run, film: {strands: number}): HTMLElement {
 }
 
 function findings(run: Run): HTMLElement | null {
-  const list = findingsOf(run);
+  const list = run.findings;
   if (list.length === 0) return null;
   const marks = {good: '✓', note: '•', warning: '!'} as const;
   const words = {good: 'Good: ', note: '', warning: 'Warning: '} as const;
@@ -151,7 +146,7 @@ function modulusCharts(run: Run): Chart[] {
     });
     const compaction = (row: Table) => row.numbers('compaction').map(c => 100 * c);
     const densification = (row: Table) => row.numbers('compaction').map(c => 1 / (1 - c));
-    const title = `${nameOf(test)} modulus`;
+    const title = `${nameOf(run, test)} modulus`;
     const yLabel = 'modulus, MPa';
     return [
       new Chart({
@@ -222,17 +217,12 @@ function measuredProfile(run: Run): SectionOptions['measuredProfile'] {
   };
 }
 
-const quantities: Record<string, [string, string, number]> = {
-  grain_angle_deg: ['Grain angle', 'grain angle against the panel, °', 1],
-  strand_thickness_strain: ['Thickness strain of the strands', 'thickness strain, %', 100],
-};
-
 // A step line through the bins that hold anything, over all states, with an empty bin at each end.
 function histogramCharts(run: Run): Chart[] {
   const histograms = table(run, 'histograms.csv');
   if (!histograms) return [];
   return histograms.distinct('quantity').map(quantity => {
-    const [title, xLabel, factor] = quantities[quantity] ?? [quantity, quantity, 1];
+    const {title, axis: xLabel, factor} = run.words.quantities[quantity] ?? {title: quantity, axis: quantity, factor: 1};
     const rows = histograms.where('quantity', quantity);
     const compactions = rows.distinct('compaction');
     const from = rows.numbers('from'), to = rows.numbers('to'), fraction = rows.numbers('fraction');

@@ -11,6 +11,13 @@
 
 namespace strandlab::press {
 
+// Limits beyond which a pressing is warned of. Judgement: at each of them moduli move by less than the scatter between
+// grids (docs/performance.md).
+inline constexpr double kJudgedFrom = 0.05;    // compaction from which inertia is judged; before, gaps close unloaded
+inline constexpr double kKineticLimit = 0.05;  // energy of the strands' mean motion over internal energy
+inline constexpr double kForceLimit = 0.10;    // difference of the platens' forces over their mean
+inline constexpr double kBalanceLimit = 0.01;  // error of the energy balance over the platens' work
+
 struct Schedule {
   double speed_m_s = 16;                                   // closing speed of the platens
   double ramp_time_fraction = 0.02;                        // of the pressing time, smooth start from rest

@@ -19,18 +19,24 @@ constexpr int kThrough = 3;
 constexpr double kQuantaPerLength = 1e5;
 constexpr double kTrimmed = 0.0005;  // share of the cells at each end that a field's bytes may clip
 
+// What the section can be coloured by, in the words of the page.
 struct Field {
-  const char* key;
+  const char *key, *label, *unit;
+  int digits;      // shown behind the point
+  bool diverging;  // its colours are symmetric about 0
   double (*value)(const Strand<2>&, std::size_t);
 };
 
 constexpr std::array kFields{
-    Field{"grain_angle_deg", [](const Strand<2>& s, std::size_t p) { return grain_angle_deg<2>(s.F[p]); }},
-    Field{"density_kg_m3", [](const Strand<2>& s, std::size_t p) { return density_kg_m3(s, p); }},
-    Field{"plastic_strain", [](const Strand<2>& s, std::size_t p) { return s.plastic[p]; }},
-    Field{"stress_through_MPa",
+    Field{"grain_angle_deg", "Grain angle", "°", 1, true,
+          [](const Strand<2>& s, std::size_t p) { return grain_angle_deg<2>(s.F[p]); }},
+    Field{"density_kg_m3", "Density", "kg/m³", 0, false,
+          [](const Strand<2>& s, std::size_t p) { return density_kg_m3(s, p); }},
+    Field{"plastic_strain", "Plastic strain", "", 3, false,
+          [](const Strand<2>& s, std::size_t p) { return s.plastic[p]; }},
+    Field{"stress_through_MPa", "Stress through thickness", "MPa", 2, true,
           [](const Strand<2>& s, std::size_t p) { return cauchy_stress<2>(s.F[p], s.stress[p])(1, 1); }},
-    Field{"stress_along_MPa",
+    Field{"stress_along_MPa", "Stress along panel", "MPa", 1, true,
           [](const Strand<2>& s, std::size_t p) { return cauchy_stress<2>(s.F[p], s.stress[p])(0, 0); }},
 };
 
@@ -179,7 +185,13 @@ Json pack_frames(const std::vector<Panel<2>>& frames, const glue::CuringOptions&
   std::vector<Range> ranges;
   for (const auto& field : kFields) {
     ranges.push_back(range_of(frames, field));
-    packed["fields"].push_back({{"key", field.key}, {"low", ranges.back().low}, {"high", ranges.back().high}});
+    packed["fields"].push_back({{"key", field.key},
+                                {"label", field.label},
+                                {"unit", field.unit},
+                                {"digits", field.digits},
+                                {"diverging", field.diverging},
+                                {"low", ranges.back().low},
+                                {"high", ranges.back().high}});
   }
   Quanta before;
   std::vector<std::size_t> starts;

@@ -18,7 +18,8 @@ Panel<2> frame_of(const Panel<2>& panel);
 // Packs frames of one mat, by compaction:
 //   {"quantum_mm", "length_mm", "initial_thickness_mm",
 //    "strands": [{"kind", "row", "angle_deg", "points": [along, through]}...],
-//    "fields": [{"key", "low", "high"}...]              value = low + (high - low) * byte/255, clipped
+//    "fields": [{"key", "label", "unit", "digits", "diverging", "low", "high"}...]
+//                                                       value = low + (high - low) * byte/255, clipped
 //    "frames": [{"compaction", "time_ms", "bottom_mm", "top_mm", "cells", "glue"}...]}
 // "cells" and "glue" are base64. "cells": corner by corner (strand after strand, along fastest) x then y as numbers of
 // quanta; in the first frame the step from the corner before (0 at the start of each strand), in the others the step of

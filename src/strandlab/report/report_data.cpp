@@ -12,6 +12,8 @@
 #include "strandlab/io/case.hpp"
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/report/frames.hpp"
+#include "strandlab/report/morphology.hpp"
+#include "strandlab/vtest/vtest.hpp"
 
 namespace strandlab::report {
 namespace {
@@ -90,6 +92,30 @@ bool finished(const Json& record, const char* step) {
   return steps.is_object() && steps.contains(step) && steps[step].is_object() && steps[step].value("finished", false);
 }
 
+// What the steps said of their numbers, warnings first.
+Json findings_of(const Json& record) {
+  Json warnings = Json::array(), others = Json::array();
+  const auto steps = record.value("steps", Json::object());
+  for (const auto* step : {"press", "test"}) {
+    if (!finished(record, step) || !steps[step].contains("findings")) continue;
+    for (const auto& finding : steps[step]["findings"])
+      (finding.value("level", "") == "warning" ? warnings : others).push_back(finding);
+  }
+  warnings.insert(warnings.end(), others.begin(), others.end());
+  return warnings;
+}
+
+// What the names in the tables are called on the page.
+Json words() {
+  Json tests, quantities;
+  for (const auto& name : vtest::kind_names()) tests[name] = vtest::label(vtest::kind_from_name(name));
+  for (const auto* name : {"grain_angle_deg", "strand_thickness_strain"}) {
+    const auto w = words_of(name);
+    quantities[name] = {{"title", w.title}, {"axis", w.axis}, {"factor", w.factor}};
+  }
+  return {{"tests", tests}, {"quantities", quantities}};
+}
+
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
@@ -117,9 +143,14 @@ Json report_data(const fs::path& run_folder) {
   }
   const auto record = read_json(run_folder / "run.json");
   const auto c = read_run_case(run_folder);
-  Json run{{"case", describe(c)},      {"case_text", needed_text(run_folder / "case.toml")},
-           {"record", record},         {"mat", nullptr},
-           {"tables", Json::object()}, {"frames", pack_frames({}, {})}};
+  Json run{{"case", describe(c)},
+           {"case_text", needed_text(run_folder / "case.toml")},
+           {"record", record},
+           {"mat", nullptr},
+           {"findings", findings_of(record)},
+           {"words", words()},
+           {"tables", Json::object()},
+           {"frames", pack_frames({}, {})}};
   if (finished(record, "mat")) run["mat"] = read_json(run_folder / "mat.json");
   if (finished(record, "press")) {
     std::vector<std::string> names(kTables.begin(), kTables.end());

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "strandlab/core/error.hpp"
@@ -5,30 +6,35 @@
 
 namespace strandlab::vtest {
 namespace {
-constexpr std::array kKinds{Kind::kTension, Kind::kBendingEndRotation, Kind::kBendingEndCouple, Kind::kBending3Point,
-                            Kind::kBending4Point};
+
+struct Words {
+  Kind kind;
+  const char *name, *label;
+};
+constexpr std::array kWords{Words{Kind::kTension, "tension", "Tension"},
+                            Words{Kind::kBendingEndRotation, "bending_end_rotation", "Bending (end rotation)"},
+                            Words{Kind::kBendingEndCouple, "bending_end_couple", "Bending (end couple)"},
+                            Words{Kind::kBending3Point, "bending_3_point", "Bending (3 points)"},
+                            Words{Kind::kBending4Point, "bending_4_point", "Bending (4 points)"}};
+
+const Words& words_of(Kind kind) {
+  return *std::find_if(kWords.begin(), kWords.end(), [kind](const auto& words) { return words.kind == kind; });
 }
 
+}  // namespace
+
 const char* name(Kind kind) {
-  switch (kind) {
-    case Kind::kTension:
-      return "tension";
-    case Kind::kBendingEndRotation:
-      return "bending_end_rotation";
-    case Kind::kBendingEndCouple:
-      return "bending_end_couple";
-    case Kind::kBending3Point:
-      return "bending_3_point";
-    case Kind::kBending4Point:
-      return "bending_4_point";
-  }
-  return "";
+  return words_of(kind).name;
+}
+
+const char* label(Kind kind) {
+  return words_of(kind).label;
 }
 
 std::vector<std::string> kind_names() {
   std::vector<std::string> names;
-  names.reserve(std::size(kKinds));
-  for (const Kind kind : kKinds) names.emplace_back(name(kind));
+  names.reserve(kWords.size());
+  for (const auto& words : kWords) names.emplace_back(words.name);
   return names;
 }
 
@@ -39,8 +45,8 @@ std::string allowed_kinds() {
 }
 
 Kind kind_from_name(const std::string& name_given) {
-  for (const Kind kind : kKinds) {
-    if (name_given == name(kind)) return kind;
+  for (const auto& words : kWords) {
+    if (name_given == words.name) return words.kind;
   }
   throw InputError("unknown virtual test \"" + name_given + "\", allowed: " + allowed_kinds());
 }

@@ -102,11 +102,8 @@ Model make_model(const Panel<2>& panel, const Options& options, Result& result) 
   const auto& group = model.connection.group;
   if (model.connection.groups == 0)
     throw InputError("no strands connect the two ends of the panel: there is nothing to test");
+  result.strands = static_cast<int>(group.size());
   result.floating_strands = model.connection.floating;
-  if (result.floating_strands > 0) {
-    result.warnings.push_back(fmt::format("{} of {} strands are not glued to both loaded ends and are left out.",
-                                          result.floating_strands, group.size()));
-  }
   std::erase_if(points, [&](const auto& point) { return group[point.a.strand] < 0; });
 
   std::vector<bool> keep(group.size());

@@ -14,6 +14,7 @@ namespace strandlab::vtest {
 enum class Kind { kTension, kBendingEndRotation, kBendingEndCouple, kBending3Point, kBending4Point };
 const char* name(Kind kind);                   // "tension", "bending_end_rotation", "bending_end_couple",
                                                // "bending_3_point", "bending_4_point"
+const char* label(Kind kind);                  // for people: "Bending (end rotation)"
 std::vector<std::string> kind_names();         // of all kinds
 Kind kind_from_name(const std::string& name);  // throws InputError with the allowed names
 std::string allowed_kinds();                   // those names, comma-separated
@@ -52,7 +53,8 @@ struct Result {
   std::vector<Modulus> moduli;  // by kind within compliance
   std::vector<GlueSlip> slips;  // in tension with the softest glue, in the order of glue::cure(); empty without tension
   double slip_compliance_t_mm_per_MPa = 0;  // of that glue
-  int floating_strands = 0;                 // not connected to both loaded ends, dropped
+  int strands = 0;                          // of the specimen
+  int floating_strands = 0;                 // of these, not glued to both loaded ends: left out
   double glued_fraction = 0;                // glued length over face length of facing rows
   int unknowns = 0;
   double assemble_s = 0, analyse_s = 0, factor_s = 0, solve_s = 0;  // wall time, all compliances together

@@ -82,9 +82,8 @@ TEST(Measure, ReportsInTheOrderAskedFor) {
 // The strand in the middle row hangs on the left strand only: it is not connected to the right end and carries nothing.
 TEST(Measure, DropsStrandsThatFloat) {
   const auto result = measure(panel_of({{0, 0, 20}, {2, 0, 6}, {3, 5, 12}}), {});
+  EXPECT_EQ(result.strands, 3);
   EXPECT_EQ(result.floating_strands, 2);
-  ASSERT_EQ(result.warnings.size(), 1U);
-  EXPECT_NE(result.warnings[0].find("2 of 3 strands"), std::string::npos);
   // One strand of 0.8 mm carries the tension of a panel 3.2 mm thick.
   EXPECT_NEAR(result.moduli[0].modulus_MPa, 10003.3 / 4, 0.1);
 }

@@ -31,10 +31,10 @@ TEST(PressedStrands, HardlyOverlap) {
   sink.snapshot = [&](const Panel<2>& panel, int index) {
     const Areas shares = areas(panel);
     ++kept;
-    EXPECT_LT(shares.overlap, 0.015) << "compaction " << panel.compaction();
+    EXPECT_LT(shares.overlap, kExplainedOverlap) << "compaction " << panel.compaction();
     EXPECT_GT(shares.strands, 0.7);
     const auto when = std::to_string(10 * (index + 1)) + " %";
-    test::record("all overlaps of strands over the panel, pressed by " + when, shares.overlap, "< 0.015");
+    test::record("all overlaps of strands over the panel, pressed by " + when, shares.overlap, "< 0.01");
   };
   press::press<2>(mat, schedule, setup, sink);
   EXPECT_EQ(kept, 4);

@@ -1,0 +1,42 @@
+// What a run's numbers say, in plain words: for the report's page and run.json.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "strandlab/press/press.hpp"
+#include "strandlab/report/morphology.hpp"
+#include "strandlab/vtest/vtest.hpp"
+
+namespace strandlab::report {
+
+enum class Level { kGood, kNote, kWarning };
+
+struct Finding {
+  Level level = Level::kNote;
+  std::string text;
+};
+
+// Of a pressing: the press's own warnings, inertia, the energy balance, friction.
+std::vector<Finding> pressing_findings(const std::vector<press::Record>& records,
+                                       const std::vector<std::string>& warnings);
+
+// Of the shapes of the states kept: overlaps of strands, voids.
+std::vector<Finding> shape_findings(const std::vector<Morphology>& states);
+
+// What the virtual tests found out about the panel at one compaction, beside its moduli.
+struct TestedState {
+  double compaction = 0;
+  bool testable = true;
+  int floating_strands = 0;   // left out of the tests
+  double glued_fraction = 0;  // of the facing length
+  std::vector<std::string> warnings{};
+};
+// A warning that several states share but for its numbers is told once, as the last of them has it.
+std::vector<Finding> test_findings(const std::vector<TestedState>& states);
+
+// [{"level": "good" | "note" | "warning", "text"}...], in the order given.
+nlohmann::json to_json(const std::vector<Finding>& findings);
+
+}  // namespace strandlab::report
