@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/text.hpp"
 #include "strandlab/table/cells.hpp"
 
 namespace strandlab::table {
@@ -45,35 +46,53 @@ Table::Table(const std::filesystem::path& file, std::vector<Quantity> quantities
 Table::Table(const std::string& text, const std::string& source, std::vector<Quantity> quantities)
     : source_(source), quantities_(std::move(quantities)) {
   std::string_view bytes = text;
-  if (bytes.substr(0, 2) == "\xFF\xFE" || bytes.substr(0, 2) == "\xFE\xFF")
-    throw InputError(fmt::format("{}: is UTF-16 text; save it as UTF-8", source_));
+  refuse_binary(bytes, source_);
   if (bytes.substr(0, 3) == "\xEF\xBB\xBF") bytes.remove_prefix(3);
   parse(as_utf8(bytes));
 }
 
+// A quote opens a cell where nothing stands before it, and is text elsewhere (an inch mark) and in lines that begin
+// with #.
 std::vector<Table::Row> Table::split(const std::string& text, char delimiter) {
   std::vector<Row> rows;
   Row row{1, {}};
   std::string cell;
-  bool quoted = false;
+  bool quoted = false, was_quoted = false;
+  Quote quote;
   int line = 1;
+  const auto end_quote = [&](int closed, bool text_follows) {
+    quote.closed = closed;
+    quote.text_follows = text_follows;
+    if (text_follows || closed != quote.opened) row.quotes.push_back(quote);
+  };
   const auto end_cell = [&] {
+    if (was_quoted) end_quote(line, false);
     row.cells.push_back(trimmed(cell));
     cell.clear();
+    was_quoted = false;
   };
   const auto end_row = [&] {
     end_cell();
     const bool remark = !row.cells.front().empty() && row.cells.front().front() == '#';
-    const bool empty = std::all_of(row.cells.begin(), row.cells.end(), [](const auto& c) { return c.empty(); });
+    const bool empty =
+        row.quotes.empty() && std::all_of(row.cells.begin(), row.cells.end(), [](const auto& c) { return c.empty(); });
     if (!remark && !empty) rows.push_back(std::move(row));
     row = {line + 1, {}};
+  };
+  const auto in_remark = [&] {
+    const std::string first = row.cells.empty() ? trimmed(cell) : row.cells.front();
+    return !first.empty() && first.front() == '#';
   };
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (quoted && c == '"' && i + 1 < text.size() && text[i + 1] == '"') {
       cell += text[++i];
-    } else if (c == '"' && (quoted || trimmed(cell).empty())) {
-      quoted = !quoted;
+    } else if (quoted && c == '"') {
+      quoted = false;
+      was_quoted = true;
+    } else if (c == '"' && !was_quoted && trimmed(cell).empty() && !in_remark()) {
+      quoted = true;
+      quote = {line};
     } else if (!quoted && c == delimiter) {
       end_cell();
     } else if (c == '\n' || c == '\r') {
@@ -82,11 +101,46 @@ std::vector<Table::Row> Table::split(const std::string& text, char delimiter) {
       if (!quoted) end_row();
       ++line;
     } else {
+      if (was_quoted && c != ' ' && c != '\t') {
+        end_quote(line, true);
+        was_quoted = false;
+      }
+      if (c == delimiter) ++quote.delimiters;
       cell += c;
     }
   }
+  if (quoted) end_quote(0, false);
   end_row();
   return rows;
+}
+
+// A quote that was forgotten takes the rows that follow into its cell: to the end of the file, or to the next quote,
+// behind which text follows that would have stood in it; or the cell holds as many delimiters as a whole row, which a
+// remark over several lines does not (in a table of up to three columns it may).
+void Table::refuse_unclosed(const std::vector<Row>& rows) const {
+  const int columns = static_cast<int>(header_.cells.size());
+  for (const auto& row : rows) {
+    for (const auto& quote : row.quotes) {
+      const bool whole_row = columns > 3 && quote.delimiters >= columns - 1;
+      if (quote.closed == quote.opened || (quote.closed > 0 && !quote.text_follows && !whole_row)) continue;
+      throw InputError(fmt::format(
+          "{}:{}: a cell opens with a quote (\") that is not closed {}; write a quote that is "
+          "meant as text twice, in a quoted cell",
+          source_, quote.opened,
+          quote.closed > 0 ? fmt::format("before line {}", quote.closed) : std::string("to the end of the file")));
+    }
+  }
+}
+
+// On one line, and not in remarks: a word in quotes may open one.
+void Table::refuse_misplaced_quotes(const Row& row) const {
+  for (const auto& quote : row.quotes) {
+    if (!quote.text_follows) continue;
+    throw InputError(
+        fmt::format("{}:{}: text follows the closing quote (\") of a cell; write a quote that is meant as "
+                    "text twice, in a quoted cell",
+                    source_, quote.opened));
+  }
 }
 
 // Takes a column whose header holds `rest` beside a name of the quantity.
@@ -240,6 +294,7 @@ void Table::parse(const std::string& text) {
   if (rows_.empty()) rows_ = split(text, delimiter_);
   if (rows_.empty()) throw InputError(fmt::format("{}: is empty", source_));
   header_ = rows_[header];
+  refuse_unclosed(rows_);
   remarks_.assign(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(header));
   rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(header) + 1);
   found_ = find_columns(header_);
@@ -410,7 +465,9 @@ void Table::check_columns() const {
 
 void Table::check_cells() {
   const std::size_t columns = header_.cells.size();
+  refuse_misplaced_quotes(header_);
   for (auto& row : rows_) {
+    refuse_misplaced_quotes(row);
     for (std::size_t extra = columns; extra < row.cells.size(); ++extra) {
       if (row.cells[extra].empty()) continue;
       throw InputError(
