@@ -157,7 +157,7 @@ void Table::add_column(const Quantity& quantity, const Row& header, int column, 
   if (!found.columns.empty() && found.columns.back().number == column) return;
   if (!found.columns.empty() && !quantity.several)
     throw InputError(fmt::format("{}:{}: columns '{}' and '{}' both give {}", source_, header.line,
-                                 header.cells[found.columns[0].number], cell, quantity.names[0]));
+                                 shortened(header.cells[found.columns[0].number]), shortened(cell), quantity.names[0]));
   found.columns.push_back({column, factor, label});
 }
 
@@ -340,11 +340,11 @@ std::optional<Table::Row> Table::read_units_row() {
     const auto factor = unit_factor(quantities_[q].dimension, cell);
     if (!factor)
       throw InputError(fmt::format("{}:{}: column '{}': '{}' is neither a number nor a known unit (allowed: {})",
-                                   source_, row.line, column_name(column.number), cell,
+                                   source_, row.line, shown_name(column.number), shortened(cell),
                                    known_units(quantities_[q].dimension)));
     if (column.factor && *column.factor != *factor)
       throw InputError(fmt::format("{}:{}: column '{}': its header says one unit and the row of units '{}'", source_,
-                                   row.line, column_name(column.number), cell));
+                                   row.line, shown_name(column.number), shortened(cell)));
     column.factor = factor;
   });
   Row taken = row;
@@ -426,7 +426,7 @@ void Table::take_stated_units() {
                                    known_units(quantity.dimension)));
     if (column.factor && *column.factor != *factor)
       throw InputError(fmt::format("{}:{}: column '{}' states its unit, and it is not {}", source_, header_.line,
-                                   column_name(column.number), quantity.stated_unit));
+                                   shown_name(column.number), quantity.stated_unit));
     column.factor = factor;
   });
 }
@@ -437,7 +437,7 @@ void Table::check_columns(const Quantity& quantity, const Found& found, const st
     if (column.factor) continue;
     const auto option = quantity.option.empty() ? "" : fmt::format(", or state it by {}-unit", quantity.option);
     throw InputError(fmt::format("{}:{}: column '{}' has no unit; write {} or add a row of units{} (known: {})",
-                                 source_, header_.line, column_name(column.number), written, option,
+                                 source_, header_.line, shown_name(column.number), written, option,
                                  known_units(quantity.dimension)));
   }
 }
@@ -451,14 +451,14 @@ void Table::check_columns() const {
     if (!found_[q].columns.empty() || !quantity.required) continue;
     if (!found_[q].doubt.empty())
       throw InputError(fmt::format("{}:{}: column '{}' has no known unit; write {} (known: {})", source_, header_.line,
-                                   found_[q].doubt, written, known_units(quantity.dimension)));
+                                   shortened(found_[q].doubt), written, known_units(quantity.dimension)));
     missing += (missing.empty() ? "" : ", ") + written;
     if (!quantity.option.empty())
       options += (options.empty() ? "; or say which it is by " : ", ") + quantity.option + "-column";
   }
   if (missing.empty()) return;
   std::string present;
-  for (const auto& cell : header_.cells) present += (present.empty() ? "" : ", ") + cell;
+  for (const auto& cell : header_.cells) present += (present.empty() ? "" : ", ") + shortened(cell);
   throw InputError(
       fmt::format("{}:{}: missing column {}; the header has: {}{}", source_, header_.line, missing, present, options));
 }
@@ -494,7 +494,8 @@ void Table::decide_decimal_mark() {
       const int column = found_[q].columns[k].number;
       const std::string& cell = row.cells[column];
       const std::string number = bare_number(cell);
-      const std::string place = fmt::format("line {}, column '{}': '{}'", row.line, column_name(column), cell);
+      const std::string place =
+          fmt::format("line {}, column '{}': '{}'", row.line, shown_name(column), shortened(cell));
       switch (mark_of(number)) {
         case Mark::kPoint:
           if (point.empty()) point = place;
@@ -525,8 +526,8 @@ double Table::parse_number(const Row& row, int column) const {
   double value = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
   if (error != std::errc() || end != number.data() + number.size())
-    throw InputError(fmt::format("{}:{}: column '{}': '{}' is not a number", source_, row.line, column_name(column),
-                                 row.cells[column]));
+    throw InputError(fmt::format("{}:{}: column '{}': '{}' is not a number", source_, row.line, shown_name(column),
+                                 shortened(row.cells[column])));
   return value;
 }
 
@@ -538,6 +539,10 @@ const Table::Found& Table::found(const std::string& name) const {
 
 std::string Table::column_name(int column) const {
   return header_.cells[column].empty() ? std::to_string(column + 1) : header_.cells[column];
+}
+
+std::string Table::shown_name(int column) const {
+  return shortened(column_name(column));
 }
 
 std::string Table::where(int row) const {

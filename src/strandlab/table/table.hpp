@@ -104,6 +104,7 @@ class Table {
   const Found& found(const std::string& name) const;
   double parse_number(const Row& row, int column) const;
   std::string column_name(int column) const;
+  std::string shown_name(int column) const;  // of a column, in messages
 
   std::string source_;
   std::vector<Quantity> quantities_;
