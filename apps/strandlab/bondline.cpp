@@ -17,6 +17,7 @@
 #include "strandlab/bondline/plots.hpp"
 #include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/text.hpp"
 #include "strandlab/report/gnuplot.hpp"
 
 namespace strandlab::app {
@@ -51,10 +52,12 @@ bondline::SpecimenTable read(const Arguments& a) {
 
 void print_excluded(const bondline::Analysis& analysis) {
   for (const auto& s : analysis.specimens)
-    if (!s.excluded.empty()) fmt::print("excluded: {} ({}): {}\n", s.specimen.id, s.specimen.source, s.excluded);
+    if (!s.excluded.empty())
+      fmt::print("excluded: {} ({}): {}\n", printable(s.specimen.id), printable(s.specimen.source),
+                 printable(s.excluded));
   for (const auto& s : analysis.specimens) {
     if (!s.specimen.slope) continue;
-    for (const auto& flag : s.specimen.slope->flags) fmt::print("flag: {}: {}\n", s.specimen.id, flag);
+    for (const auto& flag : s.specimen.slope->flags) fmt::print("flag: {}: {}\n", printable(s.specimen.id), flag);
   }
 }
 
@@ -63,8 +66,8 @@ void print_groups(const bondline::Analysis& analysis) {
              "95 % low", "95 % high", "p(0)", "from mean k");
   for (const auto& g : analysis.groups) {
     const auto& c = g.compliance_t;
-    fmt::print("{:<24}{:>4}{:>10}{:>12.5f}{:>11.5f}{:>12.5f}{:>12.5f}{:>10.3g}{:>14}\n", g.name, c.n, g.excluded,
-               c.mean, c.sd, c.low, c.high, c.p,
+    fmt::print("{:<24}{:>4}{:>10}{:>12.5f}{:>11.5f}{:>12.5f}{:>12.5f}{:>10.3g}{:>14}\n", printable(g.name), c.n,
+               g.excluded, c.mean, c.sd, c.low, c.high, c.p,
                g.compliance_of_mean ? fmt::format("{:.5f}", *g.compliance_of_mean) : "none");
   }
   fmt::print("1/D_t in mm/MPa; interval: Student's t; p(0): one-sample t-test of 1/D_t = 0\n");
@@ -72,7 +75,7 @@ void print_groups(const bondline::Analysis& analysis) {
 
 void print_comparisons(const bondline::Analysis& analysis) {
   for (const auto& family : analysis.families) {
-    const std::string within = family.name.empty() ? "" : family.name + ": ";
+    const std::string within = family.name.empty() ? "" : printable(family.name) + ": ";
     if (!family.note.empty()) fmt::print("{}{}\n", within, family.note);
     if (!family.anova) continue;
     fmt::print(
@@ -81,8 +84,9 @@ void print_comparisons(const bondline::Analysis& analysis) {
         within, family.anova->df_between, family.anova->df_within, family.anova->F, family.anova->p,
         family.welch->df_between, family.welch->df_within, family.welch->F, family.welch->p);
     for (const auto& pair : family.pairs)
-      fmt::print("  {} - {}: {:.5f} mm/MPa, t = {:.3g}, p = {:.3g}\n", analysis.groups[family.groups[pair.first]].name,
-                 analysis.groups[family.groups[pair.second]].name, pair.difference, pair.t, pair.p_holm);
+      fmt::print("  {} - {}: {:.5f} mm/MPa, t = {:.3g}, p = {:.3g}\n",
+                 printable(analysis.groups[family.groups[pair.first]].name),
+                 printable(analysis.groups[family.groups[pair.second]].name), pair.difference, pair.t, pair.p_holm);
     fmt::print("  pairs: Welch's t-test, p corrected by Holm's method\n");
   }
 }
@@ -109,8 +113,8 @@ void write_results(const Arguments& a, const bondline::Analysis& analysis, const
   const fs::path json = folder / (input.stem().string() + ".json");
   write_atomically(json, bondline::to_json(analysis, input.filename().string()));
   const int plots = draw(bondline::pictures(analysis), folder);
-  fmt::print("written: {}: specimens.csv, groups.csv, comparisons.csv, {}, {} plots\n", folder.string(),
-             json.filename().string(), plots);
+  fmt::print("written: {}: specimens.csv, groups.csv, comparisons.csv, {}, {} plots\n", printable(folder.string()),
+             printable(json.filename().string()), plots);
 }
 
 void analyse(const Arguments& a) {

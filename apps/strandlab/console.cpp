@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/text.hpp"
 
 namespace strandlab::app {
 
@@ -36,20 +37,20 @@ void Console::clear_progress() {
 
 void Console::say(const std::string& line) {
   clear_progress();
-  fmt::print("{}\n", line);
+  fmt::print("{}\n", printable(line));
   std::fflush(stdout);
-  if (log_) log_->info(line);
+  if (log_) log_->info(printable(line));
 }
 
 void Console::warn(const std::string& line) {
   clear_progress();
-  fmt::print(stderr, "warning: {}\n", line);
-  if (log_) log_->warn(line);
+  fmt::print(stderr, "warning: {}\n", printable(line));
+  if (log_) log_->warn(printable(line));
 }
 
 void Console::log_error(const std::string& line) {
   clear_progress();
-  if (log_) log_->error(line);
+  if (log_) log_->error(printable(line));
 }
 
 void Console::progress(const std::string& line) {

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -13,14 +14,22 @@
 #include "git_hash.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
+#include "strandlab/core/text.hpp"
 #include "strandlab/core/version.hpp"
 
 namespace {
 
 enum Exit { kDone = 0, kBadInput = 2, kFailed = 3 };
 
+constexpr std::size_t kLongestMessage = 4000;  // characters; values in it are shortened where they are quoted
+
+// A message on one line of the terminal, whatever the user's bytes in it.
+std::string shown(const std::string& what) {
+  return strandlab::printable(strandlab::shortened(what, kLongestMessage));
+}
+
 int fail(Exit code, const char* what) {
-  fmt::print(stderr, "strandlab: {}\n", what);
+  fmt::print(stderr, "strandlab: {}\n", shown(what));
   return code;
 }
 
@@ -30,7 +39,7 @@ void refuse_unknown_command(const CLI::App& app, const std::string& given) {
   for (const auto* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
   if (std::find(names.begin(), names.end(), given) != names.end()) return;
   const auto near = strandlab::nearest(given, names);
-  throw strandlab::InputError(fmt::format("unknown command \"{}\"{} Commands: {}", given,
+  throw strandlab::InputError(fmt::format("unknown command \"{}\"{} Commands: {}", strandlab::shortened(given),
                                           near.empty() ? "." : fmt::format("; did you mean \"{}\"?", near),
                                           strandlab::quoted_list(names)));
 }
@@ -39,6 +48,9 @@ int run(int argc, char** argv) {
   CLI::App app("Presses random strand mats and measures the moduli of the panels.", "strandlab");
   app.set_version_flag("--version", fmt::format("strandlab {} ({})", strandlab::version(), kGitHash));
   app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& e) {
+    return fmt::format("{}\nRun with --help for more information.\n", shown(e.what()));
+  });
   strandlab::app::add_init(app);
   strandlab::app::add_check(app);
   strandlab::app::add_mat(app);

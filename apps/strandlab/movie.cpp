@@ -18,6 +18,7 @@
 #include "commands.hpp"
 #include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/text.hpp"
 #include "strandlab/io/case.hpp"
 #include "strandlab/report/report_data.hpp"
 #include "strandlab/report/section_picture.hpp"
@@ -149,7 +150,7 @@ void make_movie(const MovieArguments& a) {
   arguments.push_back(film.string());
   run_ffmpeg(arguments, scratch / "ffmpeg.log");
   write_atomically(a.out, read_text(film));
-  fmt::print("movie: {} frames -> {}\n", count, a.out);
+  fmt::print("movie: {} frames -> {}\n", count, printable(a.out));
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "commands.hpp"
 #include "profile_bins.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/text.hpp"
 #include "strandlab/io/case_write.hpp"
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/report/density_profiles.hpp"
@@ -148,7 +149,7 @@ void print_means(const std::vector<profile::Mean>& means) {
 }
 
 void warn(const std::optional<std::string>& warning) {
-  if (warning) fmt::print(stderr, "strandlab: {}\n", *warning);
+  if (warning) fmt::print(stderr, "strandlab: {}\n", printable(*warning));
 }
 
 // ---- Measured profiles ---------------------------------------------------------------------------------------------
@@ -234,7 +235,7 @@ void profile_runs(const Arguments& a) {
   warn(report::plot_mean_profiles(means, folder / "profile.png"));
   warn(report::plot_profile_summaries(means, folder / "against_compaction.png"));
   if (comparison) write(*comparison, means, folder);
-  fmt::print("written: {}\n", folder.string());
+  fmt::print("written: {}\n", printable(folder.string()));
 }
 
 void add_measured_options(CLI::App& command, Arguments& a) {

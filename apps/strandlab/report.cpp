@@ -10,6 +10,7 @@
 #include "commands.hpp"
 #include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/text.hpp"
 #include "strandlab/report/html.hpp"
 #include "strandlab/report/report_data.hpp"
 
@@ -30,8 +31,9 @@ void add_report(CLI::App& app) {
   auto* command = app.add_subcommand("report", "make report.html of a run folder again");
   command->add_option("DIR", arguments->folder, "run folder")->required();
   command->add_option("-o,--output", arguments->out, "file to write (default: report.html in the run folder)");
-  command->callback(
-      [arguments] { fmt::print("report: {}\n", write_report_page(arguments->folder, arguments->out).string()); });
+  command->callback([arguments] {
+    fmt::print("report: {}\n", printable(write_report_page(arguments->folder, arguments->out).string()));
+  });
 }
 
 }  // namespace strandlab::app

@@ -6,8 +6,9 @@ import pathlib
 import resource
 import shutil
 import signal
+import subprocess
 
-from program import SOURCE, DONE, check, expect_bad_input, files, finish, scratch, strandlab
+from program import PROGRAM, SMALL_CASE, SOURCE, DONE, check, expect_bad_input, files, finish, scratch, strandlab
 
 MAT = {"length_mm": 10, "layer_thickness_mm": 0.8, "layers": [{"role": "surface", "strands": [{"x0": 0, "x1": 4}, {"x0": 5, "x1": 10}]}]}
 
@@ -20,6 +21,11 @@ def usage():
     expect_bad_input(["check", "osb.toml", "other.toml"], ["other.toml"])
     expect_bad_input(["init", "obs"], ["no ready case \"obs\"", "did you mean \"osb\"?"])
     expect_bad_input(["check", "none.toml"], ["none.toml: no such case file"])
+    expect_bad_input(["check", ""], ["no case file is given"])
+    for given in (["chek\x1b[31m"], ["check", "osb.toml", "--fr\x1b[31mce"], ["check", "no\x1b[31m\n.toml"],
+                  ["check", "osb.toml", "--set", "press.sides=\x1b[31m"], ["check", "osb.toml", "--set", "x" * 100000]):
+        message = expect_bad_input(given, ["\\x1b[31m"] if "x" * 100 not in given[-1] else ["100000"]).stderr
+        check("\x1b" not in message and len(message) < 1000, f"{given[-1][:40]!r}: the terminal would obey: {message!r}")
     check(strandlab("--version").stdout.startswith("strandlab "), "--version")
     check(strandlab("--help").returncode == DONE, "--help exits with 0")
 
@@ -28,7 +34,7 @@ CASES = [
     ("[press]\nsped_m_s = 3", [":2:", "unknown key press.sped_m_s", "did you mean speed_m_s?", "compactions"]),
     ("[pres]\nspeed_m_s = 3", [":1:", "unknown section [pres]", "did you mean press?"]),
     ("[press]\nspeed_m_s = \"fast\"", [":2:", "press.speed_m_s = \"fast\"", "must be a number"]),
-    ("[mat]\nlayer_thickness_mm = 0", [":2:", "mat.layer_thickness_mm = 0 mm", "greater than 0"]),
+    ("[mat]\nlayer_thickness_mm = 0", [":2:", "mat.layer_thickness_mm = 0 mm", "from 0.001 to"]),
     ("[materials.m]\ndensity_kg_m3 = -350", [":2:", "materials.m.density_kg_m3 = -350", "greater than 0"]),
     ("[materials.m]\nE_L_MPa = 0", [":2:", "materials.m.E_L_MPa = 0 MPa", "greater than 0"]),
     ("[kinds.core]\nlength_sd_mm = 26", [":2:", "kinds.core.length_sd_mm = 26", "length_mm = 25"]),
@@ -55,7 +61,7 @@ def overrides():
     expect_bad_input(["mat", "panel.toml", "--set", "press.speed_m_s=-3"], ["press.speed_m_s = -3 m/s"])
     expect_bad_input(["mat", "panel.toml", "--set", "test.kinds=[bending_3_point]", "--set", "press.compactions=[0.25]"],
                      ["span of 20 thicknesses", "264 mm", "0.25", "mat.length_mm"])
-    expect_bad_input(["mat", "panel.toml", "--set", "mat.length_mm=1e9"], ["mat.length_mm", "at most 100000"])
+    expect_bad_input(["mat", "panel.toml", "--set", "mat.length_mm=1e9"], ["mat.length_mm", "to 100000"])
     expect_bad_input(["mat", "panel.toml", "--set", "mat.length_mm=1e5", "--set", "grid.cells_through_strand=32",
                       "--set", "grid.cell_aspect=0.25"], ["particles", "MB of memory", "mat.length_mm"])
 
@@ -183,7 +189,34 @@ def no_space():
     check(not any(files("full").values()), f"full disk: left {list(files('full'))}")
 
 
-TESTS = [usage, case_files, overrides, mat_files, tests_no_mat_can_take, run_folders, hdf5_files, no_permission, no_space]
+def names_of_any_bytes():
+    """Names are bytes: a run whose case or folder is not UTF-8 works, and what it writes is UTF-8."""
+    folder = b"sh\xe4re"
+    os.mkdir(folder)
+    with open(folder + b"/f\xfcr.toml", "w", encoding="utf-8") as case:
+        case.write(SMALL_CASE)
+    result = subprocess.run([PROGRAM, b"run", folder + b"/f\xfcr.toml"], capture_output=True, timeout=300, check=False)
+    check(result.returncode == DONE, f"a name that is not UTF-8: {result.stderr}")
+    for output in (result.stdout, result.stderr):
+        output.decode("utf-8")  # throws where it is not
+    check(b"f\\xfcr" in result.stdout, f"the name as text: {result.stdout}")
+    run = b"runs/f\xfcr/"
+    for name in (b"run.json", b"case.toml", b"log.txt", b"report.html"):
+        if os.path.exists(run + name):
+            with open(run + name, encoding="utf-8") as text:
+                text.read()
+    check(json.load(open(run + b"run.json", encoding="utf-8"))["case_name"] == "f\\xfcr", "case_name")
+    again = subprocess.run([PROGRAM, b"run", folder + b"/f\xfcr.toml"], capture_output=True, timeout=300, check=False)
+    check(again.returncode == DONE and b"is finished" in again.stdout, f"the same case again: {again.stdout} {again.stderr}")
+    shutil.copy(run + b"mat.json", folder + b"/mat.json")
+    with open(folder + b"/m.toml", "w", encoding="utf-8") as case:
+        case.write(SMALL_CASE.replace("[mat]\n", "[mat]\nfile = 'mat.json'\n"))
+    for _ in range(2):
+        result = subprocess.run([PROGRAM, b"mat", folder + b"/m.toml", b"-o", b"m\xfc"], capture_output=True, timeout=300, check=False)
+        check(result.returncode == DONE, f"a mat file in a folder that is not UTF-8: {result.stderr}")
+
+
+TESTS = [usage, names_of_any_bytes, case_files, overrides, mat_files, tests_no_mat_can_take, run_folders, hdf5_files, no_permission, no_space]
 
 for test in TESTS:
     with scratch():

@@ -99,6 +99,10 @@ def bad_input():
     expect_bad_input(["bondline", "dls.csv", "--u-k", "-1", "-o", "x"], ["--u-k"])
     expect_bad_input(["bondline", "--design", "--compliance-t", "0"], ["above zero"])
     expect_bad_input(["bondline", "--design", "--t1-mm", "0"], ["t1_mm = 0 must be positive"])
+    lines = pathlib.Path("dls.csv").read_text(encoding="utf-8").splitlines(keepends=True)
+    lines[3] = lines[3].replace(",", ",\"", 1)  # takes the 171 specimens behind it into one cell
+    pathlib.Path("quote.csv").write_text("".join(lines), encoding="utf-8")
+    expect_bad_input(["bondline", "quote.csv", "-o", "x"], ["quote.csv:4", "quote", "not closed to the end of the file"])
     check(not pathlib.Path("x").exists(), "bad input leaves nothing behind")
 
 

@@ -23,7 +23,7 @@ export interface CaseData {
   name: string;
   length_mm: number;
   layer_thickness_mm: number;
-  seed: number;
+  seed: string; // digits: a number is exact to 2^53 only
   kinds: Kind[];
   materials: Material[];
   compactions: number[];

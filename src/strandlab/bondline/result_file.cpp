@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <system_error>
 
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/text.hpp"
 
 namespace strandlab::bondline {
 namespace {
@@ -22,7 +26,7 @@ Json number(const std::optional<double>& value) {
 }
 
 Json specimen_json(const Evaluated& s, const std::vector<std::string>& factors) {
-  Json json{{"id", s.specimen.id}, {"group", s.group}, {"source", s.specimen.source}};
+  Json json{{"id", s.specimen.id}, {"group", s.group}, {"source", as_text(s.specimen.source)}};
   for (std::size_t i = 0; i < factors.size(); ++i) json["factors"][factors[i]] = s.specimen.factors[i];
   json["k_N_per_mm"] = number(s.specimen.k_N_per_mm);
   json["compliance_t_mm_per_MPa"] = number(s.compliance_t);
@@ -82,7 +86,7 @@ Json family_json(const Analysis& analysis, const Family& family) {
 
 std::string to_json(const Analysis& analysis, const std::string& input) {
   const Uncertainty& u = analysis.options.uncertainty;
-  Json json{{"format", kFormat}, {"input", input}, {"formula", name(analysis.options.formula)}};
+  Json json{{"format", kFormat}, {"input", as_text(input)}, {"formula", name(analysis.options.formula)}};
   json["uncertainty"] = {
       {"k_relative", u.k_relative}, {"E_relative", u.E_relative}, {"t_relative", u.t_relative}, {"l_mm", u.l_mm}};
   json["groups"] = Json::array();
@@ -90,14 +94,17 @@ std::string to_json(const Analysis& analysis, const std::string& input) {
   for (const auto& family : analysis.families) json["comparisons"].push_back(family_json(analysis, family));
   for (const auto& specimen : analysis.specimens)
     json["specimens"].push_back(specimen_json(specimen, analysis.factors));
-  // A file name may be any bytes.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 double group_compliance(const std::filesystem::path& file, const std::string& group) {
   std::ifstream in(file);
-  if (!in) throw InputError(fmt::format("{}: cannot be read", file.string()));
-  const Json json = Json::parse(in, nullptr, false);
+  if (!in)
+    throw InputError(fmt::format("{}: cannot be read: {}", file.string(), std::generic_category().message(errno)));
+  std::ostringstream text;
+  text << in.rdbuf();
+  refuse_other_than_utf8(text.str(), file.string());
+  const Json json = Json::parse(text.str(), nullptr, false);
   const auto not_ours = [&] {
     return InputError(fmt::format("{}: is not a result of 'strandlab bondline'", file.string()));
   };
@@ -108,10 +115,12 @@ double group_compliance(const std::filesystem::path& file, const std::string& gr
       names.push_back(entry.at("group"));
       if (names.back() != group) continue;
       const auto& value = entry.at("compliance_t_mm_per_MPa");
-      if (value.is_null()) throw InputError(fmt::format("{}: group '{}' has no value", file.string(), group));
+      if (value.is_null())
+        throw InputError(fmt::format("{}: group '{}' has no value", file.string(), shortened(group)));
       return value.get<double>();
     }
-    throw InputError(fmt::format("{}: has no group '{}'; it has: {}", file.string(), group, fmt::join(names, ", ")));
+    throw InputError(fmt::format("{}: has no group '{}'; it has: {}", file.string(), shortened(group),
+                                 shortened(fmt::format("{}", fmt::join(names, ", ")), 400)));
   } catch (const Json::exception&) {
     throw not_ours();
   }

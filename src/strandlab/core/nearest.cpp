@@ -34,8 +34,10 @@ std::string nearest(std::string_view given, const std::vector<std::string>& know
   std::string best;
   int best_distance = 0;
   for (const auto& name : known) {
-    const int distance = edit_distance(given, name);
     const int longer = static_cast<int>(std::max(given.size(), name.size()));
+    const int shorter = static_cast<int>(std::min(given.size(), name.size()));
+    if (longer - shorter > std::max(1, longer / 3)) continue;  // the distance is at least that: no need to measure it
+    const int distance = edit_distance(given, name);
     const bool near = distance <= std::max(1, longer / 3) && distance < longer;
     if (near && (best.empty() || distance < best_distance)) {
       best = name;

@@ -9,6 +9,7 @@
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
+#include "strandlab/core/text.hpp"
 #include "strandlab/io/case_estimate.hpp"
 #include "strandlab/wood/species.hpp"
 
@@ -27,7 +28,7 @@ const KindSettings& find_kind(const Case& c, const std::string& name, const std:
   }
   const auto names = kind_names(c);
   const auto near = nearest(name, names);
-  throw InputError(fmt::format("row \"{}\" names no kind of strand{} Kinds of this case: {}", row,
+  throw InputError(fmt::format("row \"{}\" names no kind of strand{} Kinds of this case: {}", shortened(row),
                                near.empty() ? "." : fmt::format("; did you mean \"{}\"?", near), quoted_list(names)));
 }
 
@@ -39,7 +40,8 @@ std::pair<std::string, int> parse_row(const std::string& row) {
   const char* end = row.data() + row.size();
   const auto [last, error] = std::from_chars(row.data() + star + 1, end, count);
   if (error != std::errc() || last != end || count < 1 || count > 1000) {
-    throw InputError(fmt::format("row \"{}\": after * comes a number of rows from 1 to 1000, as in \"core*10\"", row));
+    throw InputError(
+        fmt::format("row \"{}\": after * comes a number of rows from 1 to 1000, as in \"core*10\"", shortened(row)));
   }
   return {row.substr(0, star), count};
 }
@@ -120,7 +122,13 @@ std::vector<StrandKind> kinds_and_materials(const Case& c) {
 }
 
 mat::Mat make_mat(const Case& c) {
-  return c.mat_file.empty() ? mat::form(layup(c), c.seed) : mat::read(c.mat_file, kind_names(c));
+  const auto& place = c.mat_file.empty() ? c.places.rows : c.places.mat_file;
+  try {
+    return c.mat_file.empty() ? mat::form(layup(c), c.seed) : mat::read(c.mat_file, kind_names(c));
+  } catch (const InputError& e) {
+    if (place.empty()) throw;
+    throw InputError(fmt::format("{}: {}", place, e.what()));
+  }
 }
 
 Weight weigh(const Case& c, const mat::Mat& mat) {
@@ -160,7 +168,8 @@ Panel<2> make_panel(const Case& c, const mat::Mat& mat) {
     return panel;
   } catch (const InputError& e) {
     if (c.mat_file.empty()) throw;
-    throw InputError(fmt::format("{}: {}", c.mat_file, e.what()));
+    const std::string given = c.places.mat_file.empty() ? "" : c.places.mat_file + ": ";
+    throw InputError(fmt::format("{}{}: {}", given, c.mat_file, e.what()));
   }
 }
 

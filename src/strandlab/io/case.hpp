@@ -33,6 +33,12 @@ struct MaterialSettings {
   wood::Material material;
 };
 
+// Where a case says what only its use can judge, as messages open: "panel.toml:12: mat.file = \"x.json\"". Empty for
+// a case that was not read.
+struct CasePlaces {
+  std::string rows, mat_file, bondline_file;
+};
+
 inline constexpr int kPointsPerCell = 2;  // material points per cell and axis, as press::Resolution has it
 
 // The defaults are the main job: an OSB mat of 20 rows pressed to 40 %.
@@ -56,6 +62,7 @@ struct Case {
   int threads = 0;                            // 0: all cores
   std::uint64_t seed = 1;
   double checkpoint_interval_s = 30;
+  CasePlaces places;
 };
 
 // Reads a case file and applies overrides ("key.path=value", TOML values or bare words). Throws InputError with file,

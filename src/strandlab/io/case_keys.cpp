@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/text.hpp"
 #include "strandlab/wood/species.hpp"
 
 namespace strandlab::io {
@@ -17,6 +18,9 @@ namespace {
 const Range kAny{};
 const Range kPositive{.lo = 0, .lo_open = true};
 const Range kNotNegative{.lo = 0};
+const Range kSize{.lo = mat::kSmallestSize_mm, .hi = mat::kLargestSize_mm};
+const Range kSizeOrZero{.lo = mat::kSmallestSize_mm, .hi = mat::kLargestSize_mm, .zero = true};
+const Range kGap{.lo = 0, .hi = mat::kLargestSize_mm};
 const Range kSoftening{.lo = 0, .hi = 1, .lo_open = true};
 const Range kPositiveOrInfinite{.lo = 0, .lo_open = true, .infinite = true};
 
@@ -129,6 +133,11 @@ Key with_choices(Key key, std::function<std::vector<std::string>(const Case&)> c
   return key;
 }
 
+Key file(Key key) {
+  key.names_file = true;
+  return key;
+}
+
 Key same_results(Key key) {
   key.changes_results = false;
   return key;
@@ -193,18 +202,18 @@ Key species_key() {
 
 void add_mat_keys(std::vector<Key>& t) {
   t.push_back(key(
-      "mat.length_mm", "mm", {.lo = 0, .hi = 1e5, .lo_open = true}, "length of the specimen along the panel",
+      "mat.length_mm", "mm", {.lo = mat::kSmallestSize_mm, .hi = 1e5}, "length of the specimen along the panel",
       [](auto& c) -> auto& { return c.length_mm; }));
   t.push_back(key(
-      "mat.layer_thickness_mm", "mm", kPositive, "thickness of strands whose kind has none of its own",
+      "mat.layer_thickness_mm", "mm", kSize, "thickness of strands whose kind has none of its own",
       [](auto& c) -> auto& { return c.layer_thickness_mm; }));
   t.push_back(key(
       "mat.rows", "", kAny, "rows of strands, bottom to top: \"kind\" or \"kind*count\"",
       [](auto& c) -> auto& { return c.rows; }));
-  t.push_back(key(
+  t.push_back(file(key(
       "mat.file", "", kAny,
       "mat file to press in place of a random mat (its length, thickness and rows hold); \"\" for random",
-      [](auto& c) -> auto& { return c.mat_file; }));
+      [](auto& c) -> auto& { return c.mat_file; })));
   t.push_back(with_choices(key(
                                "mat.offaxis", "", kAny,
                                "rows whose grain lies neither along nor across: held by the section in every "
@@ -228,17 +237,16 @@ void add_kind_keys(std::vector<Key>& t) {
       "each strand has its own angle, uniform within angle_deg +- this; 90: any angle",
       [](auto& k) -> auto& { return k.angle_spread_deg; }));
   t.push_back(kind_key(
-      "thickness_mm", "mm", kNotNegative, "thickness of the strands; 0: mat.layer_thickness_mm",
+      "thickness_mm", "mm", kSizeOrZero, "thickness of the strands; 0: mat.layer_thickness_mm",
       [](auto& k) -> auto& { return k.thickness_mm; }));
   t.push_back(kind_key(
-      "length_mm", "mm", kNotNegative, "mean length of a strand in the section; 0 with gap 0: one strand fills the row",
+      "length_mm", "mm", kSizeOrZero, "mean length of a strand in the section; 0 with gap 0: one strand fills the row",
       [](auto& k) -> auto& { return k.statistics.length_mm; }));
   t.push_back(kind_key(
       "length_sd_mm", "mm", kNotNegative, "its standard deviation, at most the mean",
       [](auto& k) -> auto& { return k.statistics.length_sd_mm; }));
   t.push_back(kind_key(
-      "gap_mm", "mm", kNotNegative, "mean gap between strands of a row",
-      [](auto& k) -> auto& { return k.statistics.gap_mm; }));
+      "gap_mm", "mm", kGap, "mean gap between strands of a row", [](auto& k) -> auto& { return k.statistics.gap_mm; }));
   t.push_back(kind_key(
       "gap_sd_mm", "mm", kNotNegative, "its standard deviation, at most the mean",
       [](auto& k) -> auto& { return k.statistics.gap_sd_mm; }));
@@ -372,10 +380,10 @@ void add_glue_keys(std::vector<Key>& t) {
       "glue.compliance_t_mm_per_MPa", "mm/MPa", kAny,
       "glue-line compliances 1/D_t along the strands; 0 is a perfect bond, and so is a negative one",
       [](auto& c) -> auto& { return c.test.compliance_t_mm_per_MPa; }));
-  t.push_back(key(
+  t.push_back(file(key(
       "glue.from_bondline", "", kAny,
       "result of `strandlab bondline` whose group gives 1/D_t in place of compliance_t_mm_per_MPa; \"\" for none",
-      [](auto& c) -> auto& { return c.bondline_file; }));
+      [](auto& c) -> auto& { return c.bondline_file; })));
   t.push_back(key(
       "glue.group", "", kAny, "group of that result", [](auto& c) -> auto& { return c.bondline_group; }));
   t.push_back(key(
@@ -414,9 +422,10 @@ void add_run_keys(std::vector<Key>& t) {
       [](auto& c) -> auto& { return c.checkpoint_interval_s; })));
 }
 
+// A text as TOML. A file name that is not UTF-8 is written with its bytes spelt out: TOML has no other bytes.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
-  for (const char ch : text) {
+  for (const char ch : as_text(text)) {
     if (ch == '"' || ch == '\\') out += '\\';
     if (static_cast<unsigned char>(ch) < 0x20 || ch == 0x7f) {
       out += fmt::format("\\u{:04X}", static_cast<unsigned char>(ch));
@@ -427,15 +436,20 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
+// Whole numbers with all their digits.
+std::string limit(double v) {
+  return v == std::floor(v) ? fmt::format("{:.0f}", v) : fmt::format("{}", v);
+}
+
 std::string describe(const Range& r) {
   const bool lower = std::isfinite(r.lo), upper = std::isfinite(r.hi);
   std::string text;
   if (lower && upper) {
-    const auto from = fmt::format("{} {}", r.lo_open ? "greater than" : "from", r.lo);
+    const auto from = fmt::format("{} {}", r.lo_open ? "greater than" : "from", limit(r.lo));
     const char* to = r.hi_open ? "to less than" : (r.lo_open ? "and at most" : "to");
-    text = fmt::format("{} {} {}", from, to, r.hi);
+    text = fmt::format("{}{} {} {}", r.zero ? "0, or " : "", from, to, limit(r.hi));
   } else if (lower) {
-    text = r.lo_open ? fmt::format("greater than {}", r.lo) : fmt::format("{} or more", r.lo);
+    text = r.lo_open ? fmt::format("greater than {}", limit(r.lo)) : fmt::format("{} or more", limit(r.lo));
   }
   if (r.infinite) text += " (inf: never)";
   if (r.increasing) text += ", increasing";

@@ -19,6 +19,7 @@ struct Range {
   double lo = -std::numeric_limits<double>::infinity(), hi = std::numeric_limits<double>::infinity();
   bool lo_open = false, hi_open = false;  // the limit itself is excluded
   bool infinite = false;                  // `inf` is accepted
+  bool zero = false;                      // 0 is accepted too, below lo
   bool increasing = false;                // lists: each entry greater than the one before
 };
 
@@ -28,6 +29,7 @@ struct Key {
   Range range;
   std::string help;
   std::function<std::vector<std::string>(const Case&)> choices;  // of texts; empty: any text
+  bool names_file = false;                                       // a text: relative ones count from the case file
   bool changes_results = true;  // false: runs that differ in this key alone give the same bits
   // `name` is what stands for the * of the path, "" where there is none. set() expects a value that passed the checks.
   std::function<Value(const Case&, const std::string& name)> get;

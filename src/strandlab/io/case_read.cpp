@@ -4,13 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
+#include <functional>
+#include <limits>
 #include <optional>
+#include <regex>
 #include <sstream>
 
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
+#include "strandlab/core/text.hpp"
 #include "strandlab/io/case.hpp"
 #include "strandlab/io/case_keys.hpp"
 
@@ -36,11 +41,42 @@ struct Source {
 
 // ---- Text to tables -------------------------------------------------------------------------------------------------
 
+constexpr std::size_t kLongestReason = 200;  // characters of a library's sentence
+
+std::string line_at(const std::string& text, std::size_t number) {
+  std::istringstream lines(text);
+  std::string line;
+  for (std::size_t i = 0; i < number; ++i) std::getline(lines, line);
+  return line;
+}
+
+// "1,5" and "-0,25" with a decimal point; nothing for another text.
+std::optional<std::string> with_decimal_point(const std::string& value) {
+  static const std::regex kDecimalComma(R"(\s*([-+]?[0-9]{1,18}),([0-9]{1,18})\s*)");
+  std::smatch part;
+  if (value.size() > 50 || !std::regex_match(value, part, kDecimalComma)) return std::nullopt;
+  return fmt::format("{}.{}", part[1].str(), part[2].str());
+}
+
+// What most likely is meant by a value that is not TOML, to end the message; empty where nothing is known.
+std::string hint(const std::string& value) {
+  if (const auto number = with_decimal_point(value.substr(0, value.find('#'))))
+    return fmt::format("; numbers have a decimal point: {}", *number);
+  if (value.find('\\') != std::string::npos)
+    return "; \\ has a meaning of its own in TOML: write / in file names, or single quotes: 'C:\\mats\\a.json'";
+  return {};
+}
+
 toml::table parse_toml(const std::string& text, const std::string& source) {
+  refuse_other_than_utf8(text, source);
   try {
     return toml::parse(text, source);
   } catch (const toml::parse_error& e) {
-    throw InputError(fmt::format("{}:{}: not valid TOML: {}", source, e.source().begin.line, e.description()));
+    const auto line = line_at(text, e.source().begin.line);
+    const auto equals = line.find('=');
+    throw InputError(fmt::format("{}:{}: not valid TOML: {}{}", source, e.source().begin.line,
+                                 shortened(e.description(), kLongestReason),
+                                 equals == std::string::npos ? "" : hint(line.substr(equals + 1))));
   }
 }
 
@@ -76,7 +112,9 @@ std::string complete_numbers(const std::string& value) {
 
 Source parse_override(const std::string& text) {
   Source source;
-  source.name = "--set " + text;
+  source.name = "--set " + shortened(text);
+  if (!is_utf8(text) || text.find('\0') != std::string::npos)
+    throw InputError(fmt::format("{}: holds bytes that are no text in UTF-8", source.name));
   source.folder = fs::current_path();
   const auto equals = text.find('=');
   const bool one_line = text.find_first_of("\n\r") == std::string::npos;
@@ -103,8 +141,8 @@ Source parse_override(const std::string& text) {
   }
   throw InputError(
       fmt::format("{}: expected key.path=value with a TOML value or a bare word, as in "
-                  "--set press.compactions=[0,0.2]",
-                  source.name));
+                  "--set press.compactions=[0,0.2]{}",
+                  source.name, hint(value)));
 }
 
 // ---- Tables to keys -------------------------------------------------------------------------------------------------
@@ -144,10 +182,15 @@ std::string did_you_mean(const std::string& given, const std::vector<std::string
   return near.empty() ? "." : fmt::format("; did you mean {}?", near);
 }
 
+// As messages name a key or a section.
+std::string name_of(const Path& path) {
+  return shortened(fmt::format("{}", fmt::join(path, ".")));
+}
+
 [[noreturn]] void throw_unknown_section(const Given& given) {
   std::vector<std::string> known;
   for (const auto& s : sections()) known.push_back(split(s.path)[0]);
-  const auto name = fmt::format("{}", fmt::join(given.path, "."));
+  const auto name = name_of(given.path);
   throw InputError(fmt::format("{}: unknown section [{}]{} Sections: {}", given.where, name,
                                did_you_mean(given.path[0], known), fmt::join(known, ", ")));
 }
@@ -165,7 +208,7 @@ std::string nearest_key(const Path& path, const std::vector<std::string>& same_s
 }
 
 [[noreturn]] void throw_unknown_key(const Given& given) {
-  const auto name = fmt::format("{}", fmt::join(given.path, "."));
+  const auto name = name_of(given.path);
   const Path section(given.path.begin(), given.path.end() - 1);
   if (is_section(given.path)) {
     throw InputError(fmt::format("{}: {} is a section: its keys follow a line [{}]", given.where, name, name));
@@ -177,7 +220,7 @@ std::string nearest_key(const Path& path, const std::vector<std::string>& same_s
   if (here.empty() && !section.empty()) throw_unknown_section({section, nullptr, given.where});
   std::string known = "Sections:";
   for (const auto& s : sections()) known += " [" + s.path + "]";
-  if (!here.empty()) known = fmt::format("Keys of [{}]: {}", fmt::join(section, "."), fmt::join(here, ", "));
+  if (!here.empty()) known = fmt::format("Keys of [{}]: {}", name_of(section), fmt::join(here, ", "));
   throw InputError(fmt::format("{}: unknown key {}{} {}", given.where, name, nearest_key(given.path, here), known));
 }
 
@@ -210,7 +253,7 @@ std::string type_of(const toml::node& node) {
   return "a date or time";
 }
 
-// A value as the user may have written it, on one line.
+// A value as the user may have written it, on one line; 3.0 is no whole number and must not look like one.
 std::string as_given(const toml::node& node) {
   if (const auto* array = node.as_array()) {
     std::vector<std::string> items;
@@ -218,7 +261,10 @@ std::string as_given(const toml::node& node) {
     return fmt::format("[{}]", fmt::join(items, ", "));
   }
   if (const auto* text = node.as_string()) return fmt::format("\"{}\"", text->get());
-  if (const auto* real = node.as_floating_point()) return fmt::format("{}", real->get());
+  if (const auto* real = node.as_floating_point()) {
+    const auto text = fmt::format("{}", real->get());
+    return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+  }
   std::ostringstream text;
   node.visit([&](const auto& n) { text << n; });
   return text.str();
@@ -258,16 +304,21 @@ std::optional<Value> convert(const toml::node& node, const Value& like) {
   return list;
 }
 
-bool inside(const Range& r, double v) {
+// A number with 64 bits for its digits: whole numbers and doubles are both exact in it.
+using Exact = long double;
+static_assert(std::numeric_limits<Exact>::digits >= 63);
+
+bool inside(const Range& r, Exact v) {
   if (std::isnan(v)) return false;
   if (std::isinf(v)) return r.infinite && v > 0;
+  if (r.zero && v == 0) return true;
   return (r.lo_open ? v > r.lo : v >= r.lo) && (r.hi_open ? v < r.hi : v <= r.hi);
 }
 
-std::vector<double> numbers_of(const Value& value) {
-  if (const auto* i = std::get_if<std::int64_t>(&value)) return {static_cast<double>(*i)};
+std::vector<Exact> numbers_of(const Value& value) {
+  if (const auto* i = std::get_if<std::int64_t>(&value)) return {static_cast<Exact>(*i)};
   if (const auto* d = std::get_if<double>(&value)) return {*d};
-  if (const auto* list = std::get_if<std::vector<double>>(&value)) return *list;
+  if (const auto* list = std::get_if<std::vector<double>>(&value)) return {list->begin(), list->end()};
   return {};
 }
 
@@ -283,41 +334,84 @@ bool empty_list(const Value& value) {
   return (numbers && numbers->empty()) || (texts && texts->empty());
 }
 
-void check_value(const Key& key, const Case& c, const Value& value, const std::string& opening) {
-  if (empty_list(value)) throw InputError(opening + ": the list must not be empty");
+// Points at an entry of a list, 1 the first: "entry 2, nan, "; nothing for a value that is no list.
+std::string entry(const toml::node& node, std::size_t index) {
+  const auto* list = node.as_array();
+  return list ? fmt::format("entry {}, {}, ", index + 1, shortened(as_given(*list->get(index)))) : std::string();
+}
+
+void check_numbers(const Range& range, const std::string& rule, const Value& value, const toml::node& node,
+                   const std::string& opening) {
   const auto numbers = numbers_of(value);
-  const auto rule = allowed(key, c);
-  for (const double v : numbers) {
-    if (!inside(key.range, v)) {
-      const bool never = std::isinf(v) && !key.range.infinite && !rule.empty();
-      throw InputError(fmt::format("{}: must be {}{}", opening, never ? "a finite number, " : "",
-                                   rule.empty() ? "a finite number" : rule));
-    }
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (inside(range, numbers[i])) continue;
+    const bool never = std::isinf(numbers[i]) && !range.infinite && !rule.empty();
+    throw InputError(fmt::format("{}: {}must be {}{}", opening, entry(node, i), never ? "a finite number, " : "",
+                                 rule.empty() ? "a finite number" : rule));
   }
-  if (key.range.increasing &&
-      std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>()) != numbers.end()) {
-    throw InputError(fmt::format("{}: must be {}", opening, rule));
+  if (!range.increasing) return;
+  const auto stop = std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>());
+  if (stop == numbers.end()) return;
+  const auto i = static_cast<std::size_t>(stop - numbers.begin());
+  throw InputError(
+      fmt::format("{}: {}is not above {}but the list must be {}", opening, entry(node, i + 1), entry(node, i), rule));
+}
+
+void check_value(const Key& key, const Case& c, const Value& value, const toml::node& node,
+                 const std::string& opening) {
+  if (empty_list(value)) throw InputError(opening + ": the list must not be empty");
+  const auto rule = allowed(key, c);
+  check_numbers(key.range, rule, value, node, opening);
+  const auto texts = texts_of(value);
+  const auto is_control = [](unsigned char ch) { return ch < 0x20 || ch == 0x7F; };
+  if (key.names_file && std::any_of(texts[0].begin(), texts[0].end(), is_control)) {
+    throw InputError(
+        fmt::format("{}: holds a control character: in double quotes \\t is a tab and \\n a new line; write / in file "
+                    "names, or single quotes: 'C:\\mats\\a.json'",
+                    opening));
   }
   if (!key.choices) return;
   const auto known = key.choices(c);
-  for (const auto& text : texts_of(value)) {
-    if (std::find(known.begin(), known.end(), text) != known.end()) continue;
-    throw InputError(fmt::format("{}: \"{}\" is not {}{}", opening, text, rule, did_you_mean(text, known)));
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (std::find(known.begin(), known.end(), texts[i]) != known.end()) continue;
+    throw InputError(fmt::format("{}: {}\"{}\" is not {}{}", opening,
+                                 node.is_array() ? fmt::format("entry {}, ", i + 1) : std::string(),
+                                 shortened(texts[i]), rule, did_you_mean(texts[i], known)));
   }
+}
+
+// Key, value and unit as messages open: "panel.toml:12: press.speed_m_s = 3 m/s".
+std::string opening_of(const Given& given, const Key& key) {
+  return fmt::format("{}: {} = {}{}", given.where, name_of(given.path), shortened(as_given(*given.node)),
+                     key.unit.empty() ? "" : " " + key.unit);
+}
+
+[[noreturn]] void throw_wrong_type(const Given& given, const Value& like, const std::string& opening) {
+  const auto& node = *given.node;
+  const auto must_be = fmt::format("{}: must be {}", opening, type_name(like));
+  if (std::holds_alternative<std::int64_t>(like) && node.is_floating_point())
+    throw InputError(must_be + ", such as 3: this is written with a decimal point or an exponent");
+  if (const auto* list = node.as_array(); list && like.index() >= Value(std::vector<double>()).index()) {
+    const bool numbers = std::holds_alternative<std::vector<double>>(like);
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const auto& item = *list->get(i);
+      if (numbers ? number(item).has_value() : item.is_string()) continue;
+      throw InputError(fmt::format("{}, {}is {}", must_be, entry(node, i), type_of(item)));
+    }
+  }
+  const auto decimal = node.is_string() ? with_decimal_point(node.as_string()->get()) : std::nullopt;
+  throw InputError(fmt::format("{}, this is {}{}", must_be, type_of(node),
+                               decimal ? fmt::format("; numbers have a decimal point: {}", *decimal) : ""));
 }
 
 void apply(Case& c, const Given& given) {
   const auto* key = find_key(given.path);
   const auto name = instance_of(given.path);
-  const auto path = fmt::format("{}", fmt::join(given.path, "."));
-  const auto opening =
-      fmt::format("{}: {} = {}{}", given.where, path, as_given(*given.node), key->unit.empty() ? "" : " " + key->unit);
+  const auto opening = opening_of(given, *key);
   const auto like = key->get(c, name);
   const auto value = convert(*given.node, like);
-  if (!value) {
-    throw InputError(fmt::format("{}: must be {}, this is {}", opening, type_name(like), type_of(*given.node)));
-  }
-  check_value(*key, c, *value, opening);
+  if (!value) throw_wrong_type(given, like, opening);
+  check_value(*key, c, *value, *given.node, opening);
   key->set(c, name, *value);
 }
 
@@ -329,8 +423,8 @@ void make_instance(Case& c, const Given& given) {
       !name.empty() &&
       name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
   if (!plain) {
-    throw InputError(
-        fmt::format("{}: [{}.{}]: a name is made of letters, digits, _ and -", given.where, given.path[0], name));
+    throw InputError(fmt::format("{}: [{}.{}]: a name is made of letters, digits, _ and -", given.where, given.path[0],
+                                 shortened(name)));
   }
   const auto existing = instances(c, section);
   if (std::find(existing.begin(), existing.end(), name) != existing.end()) return;
@@ -462,7 +556,12 @@ void use_bondline(Case& c, const fs::path& file) {
     return;
   }
   if (c.bondline_group.empty()) fail("glue.from_bondline needs glue.group, the group of that result to take");
-  const std::vector<double> measured{bondline::group_compliance(c.bondline_file, c.bondline_group)};
+  std::vector<double> measured;
+  try {
+    measured = {bondline::group_compliance(c.bondline_file, c.bondline_group)};
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}: {}", c.places.bondline_file, e.what()));
+  }
   auto& given = c.test.compliance_t_mm_per_MPa;
   if (given != measured && given != Case().test.compliance_t_mm_per_MPa)
     fail(fmt::format(
@@ -478,8 +577,12 @@ Case case_from_sources(Case c, const std::vector<Source>& sources) {
     const auto first = given.size();
     flatten(source, source.table, {}, given);
     for (auto i = first; i < given.size(); ++i) {
-      if (given[i].path == Path{"mat", "file"}) mat_folder = source.folder;
-      if (given[i].path == Path{"glue", "from_bondline"}) bondline_folder = source.folder;
+      if (!given[i].node) continue;
+      const auto* key = find_key(given[i].path);
+      if (!key->names_file) continue;
+      const bool is_mat = key->path == "mat.file";
+      (is_mat ? mat_folder : bondline_folder) = source.folder;
+      (is_mat ? c.places.mat_file : c.places.bondline_file) = opening_of(given[i], *key);
     }
   }
   for (const auto& g : given) {
@@ -492,6 +595,7 @@ Case case_from_sources(Case c, const std::vector<Source>& sources) {
   for (const auto& g : ordered) apply(c, g);
   make_absolute(c.mat_file, mat_folder);
   make_absolute(c.bondline_file, bondline_folder);
+  c.places.rows = where_of(given, sources.front().name, {"mat", "rows"}) + ": mat.rows";
   check_case(c, given, sources.front().name);
   return c;
 }
@@ -504,6 +608,7 @@ std::vector<Source> with_overrides(Source file, const std::vector<std::string>& 
 }
 
 std::string read_text(const fs::path& file) {
+  if (file.empty()) throw InputError("no case file is given: its name is empty");
   std::error_code error;
   const auto status = fs::status(file, error);
   if (!fs::exists(status)) {

@@ -14,6 +14,7 @@
 
 #include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/text.hpp"
 #include "strandlab/core/version.hpp"
 
 namespace strandlab::io {
@@ -188,7 +189,7 @@ Json& RunFolder::record(Step step) {
 }
 
 void RunFolder::save() const {
-  write_atomically(file("run.json"), record_.dump(2) + "\n");
+  write_atomically(file("run.json"), record_.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 bool RunFolder::finished(Step step) const {
@@ -259,7 +260,7 @@ void RunFolder::remove_leftovers() const {
 
 void RunFolder::write_case(const Case& c) {
   record_["strandlab"] = version();
-  record_["case_name"] = c.name;
+  record_["case_name"] = as_text(c.name);
   record_["case"] = all_lines(c);
   save();
   write_atomically(file("case.toml"), resolved_text(c));

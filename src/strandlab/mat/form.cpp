@@ -11,9 +11,7 @@
 namespace strandlab::mat {
 namespace {
 
-constexpr double kShortestStrand = 1e-3;  // mm, mean length: far below any strand, far above the resolution
-constexpr double kLongestMat = 1e9;       // mm: places stay exact in whole 1e-6 mm
-constexpr double kAnglesPerDegree = 1e3;  // angles are whole multiples of its inverse
+constexpr double kAnglesPerDegree = 1e3;                         // angles are whole multiples of its inverse
 constexpr std::uint64_t kAngleStreams = std::uint64_t{1} << 32;  // streams of rows' angles; those of places lie below
 
 Ticks ticks(double mm) {
@@ -49,9 +47,9 @@ Cycle draw_covering_cycle(const StrandStatistics& s, RandomStream& random) {
 }
 
 void check_normal(const std::string& where, const char* name, double mean, double sd, double smallest) {
-  if (!(mean >= smallest) || !(mean <= kLongestMat)) {
+  if (!(mean >= smallest) || !(mean <= kLargestSize_mm)) {
     throw InputError(
-        fmt::format("{}: {}_mm = {} must be between {} and {} mm", where, name, mean, smallest, kLongestMat));
+        fmt::format("{}: {}_mm = {} must be between {} and {} mm", where, name, mean, smallest, kLargestSize_mm));
   }
   if (!(sd >= 0)) throw InputError(fmt::format("{}: {}_sd_mm = {} must not be negative", where, name, sd));
   if (sd > mean) {
@@ -74,8 +72,9 @@ void check_angles(const std::string& where, const AngleRange& angles) {
 
 void check(const Layup& layup) {
   const auto positive = [](const std::string& what, double value) {
-    if (!(value >= kShortestStrand) || !(value <= kLongestMat)) {
-      throw InputError(fmt::format("{} = {} must be between {} and {} mm", what, value, kShortestStrand, kLongestMat));
+    if (!(value >= kSmallestSize_mm) || !(value <= kLargestSize_mm)) {
+      throw InputError(
+          fmt::format("{} = {} must be between {} and {} mm", what, value, kSmallestSize_mm, kLargestSize_mm));
     }
   };
   positive("layup: length_mm", layup.length_mm);
@@ -88,7 +87,7 @@ void check(const Layup& layup) {
     if (row.thickness_mm) positive(where + ": thickness_mm", *row.thickness_mm);
     if (row.angles_deg) check_angles(where, *row.angles_deg);
     if (fills_row(row.statistics)) continue;
-    check_normal(where, "length", row.statistics.length_mm, row.statistics.length_sd_mm, kShortestStrand);
+    check_normal(where, "length", row.statistics.length_mm, row.statistics.length_sd_mm, kSmallestSize_mm);
     check_normal(where, "gap", row.statistics.gap_mm, row.statistics.gap_sd_mm, 0);
   }
 }

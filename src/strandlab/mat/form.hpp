@@ -10,6 +10,10 @@
 
 namespace strandlab::mat {
 
+// Lengths and thicknesses of a layup lie within these: far below any strand, far above the resolution; and places stay
+// exact in whole 1e-6 mm.
+inline constexpr double kSmallestSize_mm = 1e-3, kLargestSize_mm = 1e9;
+
 // Statistics of one kind of strand as seen in the section. Lengths and gaps are normal, truncated to positive values.
 // gap_mm = 0 with gap_sd_mm = 0 and length_mm = 0: one strand fills the row (plywood, LVL).
 struct StrandStatistics {

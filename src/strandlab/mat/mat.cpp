@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <system_error>
 
 #include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
+#include "strandlab/core/text.hpp"
 
 namespace strandlab::mat {
 namespace {
@@ -46,8 +49,7 @@ std::string at_strand(const std::string& layer, std::size_t strand) {
 
 // A JSON value as a message shows it: short, whatever it is.
 std::string shown(const Json& value) {
-  auto text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  return text.size() > 40 ? text.substr(0, 37) + "..." : text;
+  return shortened(value.dump(-1, ' ', false, Json::error_handler_t::replace), 40);
 }
 
 const Json& member(const Json& object, const char* key, const Keys& known, const std::string& where) {
@@ -130,7 +132,10 @@ std::string file_text(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) reject(file.string(), "is a folder, not a mat file");
   std::ifstream in(file, std::ios::binary);
-  if (!in) reject(file.string(), "cannot be read as a mat file (no such file, or no permission)");
+  if (!in) {
+    const auto reason = std::generic_category().message(errno);
+    reject(file.string(), fmt::format("cannot be read as a mat file: {}", reason));
+  }
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
@@ -144,14 +149,20 @@ std::string parser_reason(const std::string& message) {
 }
 
 Json parse(const std::string& content, const std::string& source) {
+  refuse_other_than_utf8(content, source);
   try {
     return Json::parse(content);
   } catch (const Json::parse_error& error) {
     const auto end = content.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, content.size()));
     const auto line = 1 + std::count(content.begin(), end, '\n');
-    reject(fmt::format("{}: line {}", source, line), "not valid JSON: " + parser_reason(error.what()));
+    const auto reason = parser_reason(error.what());
+    // The number before a comma is whole, and a second one follows where a name belongs.
+    const bool comma = reason.find("unexpected number literal; expected string literal") != std::string::npos;
+    reject(fmt::format("{}: line {}", source, line),
+           fmt::format("not valid JSON: {}{}", shortened(reason, 200),
+                       comma ? " (a decimal comma? numbers have a decimal point, 1.5)" : ""));
   } catch (const Json::exception& error) {
-    reject(source, "not valid JSON: " + parser_reason(error.what()));
+    reject(source, "not valid JSON: " + shortened(parser_reason(error.what()), 200));
   }
 }
 
@@ -201,7 +212,7 @@ void check_role(const std::string& role, const Keys& kinds, const std::string& w
   if (role.empty()) reject(where, "role must not be empty; it names a strand kind");
   if (kinds.empty() || std::find(kinds.begin(), kinds.end(), role) != kinds.end()) return;
   const auto near = nearest(role, kinds);
-  reject(where, fmt::format("unknown role \"{}\"{}; the strand kinds are {}", role,
+  reject(where, fmt::format("unknown role \"{}\"{}; the strand kinds are {}", shortened(role),
                             near.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", near), quoted_list(kinds)));
 }
 

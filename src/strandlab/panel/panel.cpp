@@ -7,6 +7,7 @@
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
+#include "strandlab/core/text.hpp"
 
 namespace strandlab {
 namespace {
@@ -48,7 +49,7 @@ const wood::Material& find_material(const StrandKind& kind, const mat::Strand& s
   }
   const auto names = material_names(kinds);
   throw InputError(fmt::format("layer {}, strand at x = {} mm: unknown material \"{}\"{} Materials: {}", layer + 1,
-                               strand.x0_mm, *strand.material, did_you_mean(*strand.material, names),
+                               strand.x0_mm, shortened(*strand.material), did_you_mean(*strand.material, names),
                                quoted_list(names)));
 }
 

@@ -7,8 +7,10 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <string>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/text.hpp"
 #include "strandlab/io/case.hpp"
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/report/frames.hpp"
@@ -73,10 +75,10 @@ Json describe(const io::Case& c) {
     const auto known = [&](const Json& m) { return m.at("name") == kind.material.name; };
     if (std::none_of(materials.begin(), materials.end(), known)) materials.push_back(describe(kind.material));
   }
-  return {{"name", c.name},
+  return {{"name", as_text(c.name)},
           {"length_mm", c.length_mm},
           {"layer_thickness_mm", c.layer_thickness_mm},
-          {"seed", c.seed},
+          {"seed", std::to_string(c.seed)},  // a number of the page is exact to 2^53 only
           {"kinds", kinds},
           {"materials", materials},
           {"compactions", c.schedule.compactions},

@@ -7,6 +7,8 @@
 #include <cctype>
 #include <cstddef>
 
+#include "strandlab/core/text.hpp"
+
 namespace strandlab::table {
 namespace {
 
@@ -20,23 +22,6 @@ constexpr std::string_view kSeparators = " _([,/:;)]-\t";
 std::string words(const std::string& text) {
   const auto first = text.find_first_not_of(kSeparators);
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(kSeparators) + 1 - first);
-}
-
-// Length of the UTF-8 character that starts a text, 0 where there is none.
-std::size_t utf8_length(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text.front());
-  const std::size_t length = first < 0x80                    ? 1
-                             : first >= 0xC2 && first < 0xE0 ? 2
-                             : first >= 0xE0 && first < 0xF0 ? 3
-                             : first >= 0xF0 && first < 0xF5 ? 4
-                                                             : 0;
-  if (length == 0 || length > text.size()) return 0;
-  const auto follows = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
-  const bool whole = std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length), follows);
-  const auto second = length > 1 ? static_cast<unsigned char>(text[1]) : 0;
-  const bool overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
-  const bool outside = (first == 0xED && second > 0x9F) || (first == 0xF4 && second > 0x8F);
-  return whole && !overlong && !outside ? length : 0;
 }
 
 bool all_digits(std::string_view text) {
@@ -138,25 +123,18 @@ UnitAndLabel unit_and_label(Dimension dimension, const std::string& rest) {
 }
 
 std::string as_utf8(std::string_view text) {
-  for (std::string_view rest = text; !rest.empty();) {
-    const auto length = utf8_length(rest);
-    if (length > 0) {
-      rest.remove_prefix(length);
-      continue;
+  if (is_utf8(text)) return std::string(text);
+  std::string converted;
+  for (char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      converted += c;
+    } else {
+      converted += static_cast<char>(0xC0U | (byte >> 6U));
+      converted += static_cast<char>(0x80U | (byte & 0x3FU));
     }
-    std::string converted;
-    for (char c : text) {
-      const auto byte = static_cast<unsigned char>(c);
-      if (byte < 0x80) {
-        converted += c;
-      } else {
-        converted += static_cast<char>(0xC0U | (byte >> 6U));
-        converted += static_cast<char>(0x80U | (byte & 0x3FU));
-      }
-    }
-    return converted;
   }
-  return std::string(text);
+  return converted;
 }
 
 Mark mark_of(const std::string& number) {

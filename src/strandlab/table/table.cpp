@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/text.hpp"
 #include "strandlab/table/cells.hpp"
 
 namespace strandlab::table {
@@ -45,35 +46,53 @@ Table::Table(const std::filesystem::path& file, std::vector<Quantity> quantities
 Table::Table(const std::string& text, const std::string& source, std::vector<Quantity> quantities)
     : source_(source), quantities_(std::move(quantities)) {
   std::string_view bytes = text;
-  if (bytes.substr(0, 2) == "\xFF\xFE" || bytes.substr(0, 2) == "\xFE\xFF")
-    throw InputError(fmt::format("{}: is UTF-16 text; save it as UTF-8", source_));
+  refuse_binary(bytes, source_);
   if (bytes.substr(0, 3) == "\xEF\xBB\xBF") bytes.remove_prefix(3);
   parse(as_utf8(bytes));
 }
 
+// A quote opens a cell where nothing stands before it, and is text elsewhere (an inch mark) and in lines that begin
+// with #.
 std::vector<Table::Row> Table::split(const std::string& text, char delimiter) {
   std::vector<Row> rows;
   Row row{1, {}};
   std::string cell;
-  bool quoted = false;
+  bool quoted = false, was_quoted = false;
+  Quote quote;
   int line = 1;
+  const auto end_quote = [&](int closed, bool text_follows) {
+    quote.closed = closed;
+    quote.text_follows = text_follows;
+    if (text_follows || closed != quote.opened) row.quotes.push_back(quote);
+  };
   const auto end_cell = [&] {
+    if (was_quoted) end_quote(line, false);
     row.cells.push_back(trimmed(cell));
     cell.clear();
+    was_quoted = false;
   };
   const auto end_row = [&] {
     end_cell();
     const bool remark = !row.cells.front().empty() && row.cells.front().front() == '#';
-    const bool empty = std::all_of(row.cells.begin(), row.cells.end(), [](const auto& c) { return c.empty(); });
+    const bool empty =
+        row.quotes.empty() && std::all_of(row.cells.begin(), row.cells.end(), [](const auto& c) { return c.empty(); });
     if (!remark && !empty) rows.push_back(std::move(row));
     row = {line + 1, {}};
+  };
+  const auto in_remark = [&] {
+    const std::string first = row.cells.empty() ? trimmed(cell) : row.cells.front();
+    return !first.empty() && first.front() == '#';
   };
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (quoted && c == '"' && i + 1 < text.size() && text[i + 1] == '"') {
       cell += text[++i];
-    } else if (c == '"' && (quoted || trimmed(cell).empty())) {
-      quoted = !quoted;
+    } else if (quoted && c == '"') {
+      quoted = false;
+      was_quoted = true;
+    } else if (c == '"' && !was_quoted && trimmed(cell).empty() && !in_remark()) {
+      quoted = true;
+      quote = {line};
     } else if (!quoted && c == delimiter) {
       end_cell();
     } else if (c == '\n' || c == '\r') {
@@ -82,11 +101,46 @@ std::vector<Table::Row> Table::split(const std::string& text, char delimiter) {
       if (!quoted) end_row();
       ++line;
     } else {
+      if (was_quoted && c != ' ' && c != '\t') {
+        end_quote(line, true);
+        was_quoted = false;
+      }
+      if (c == delimiter) ++quote.delimiters;
       cell += c;
     }
   }
+  if (quoted) end_quote(0, false);
   end_row();
   return rows;
+}
+
+// A quote that was forgotten takes the rows that follow into its cell: to the end of the file, or to the next quote,
+// behind which text follows that would have stood in it; or the cell holds as many delimiters as a whole row, which a
+// remark over several lines does not (in a table of up to three columns it may).
+void Table::refuse_unclosed(const std::vector<Row>& rows) const {
+  const int columns = static_cast<int>(header_.cells.size());
+  for (const auto& row : rows) {
+    for (const auto& quote : row.quotes) {
+      const bool whole_row = columns > 3 && quote.delimiters >= columns - 1;
+      if (quote.closed == quote.opened || (quote.closed > 0 && !quote.text_follows && !whole_row)) continue;
+      throw InputError(fmt::format(
+          "{}:{}: a cell opens with a quote (\") that is not closed {}; write a quote that is "
+          "meant as text twice, in a quoted cell",
+          source_, quote.opened,
+          quote.closed > 0 ? fmt::format("before line {}", quote.closed) : std::string("to the end of the file")));
+    }
+  }
+}
+
+// On one line, and not in remarks: a word in quotes may open one.
+void Table::refuse_misplaced_quotes(const Row& row) const {
+  for (const auto& quote : row.quotes) {
+    if (!quote.text_follows) continue;
+    throw InputError(
+        fmt::format("{}:{}: text follows the closing quote (\") of a cell; write a quote that is meant as "
+                    "text twice, in a quoted cell",
+                    source_, quote.opened));
+  }
 }
 
 // Takes a column whose header holds `rest` beside a name of the quantity.
@@ -103,7 +157,7 @@ void Table::add_column(const Quantity& quantity, const Row& header, int column, 
   if (!found.columns.empty() && found.columns.back().number == column) return;
   if (!found.columns.empty() && !quantity.several)
     throw InputError(fmt::format("{}:{}: columns '{}' and '{}' both give {}", source_, header.line,
-                                 header.cells[found.columns[0].number], cell, quantity.names[0]));
+                                 shortened(header.cells[found.columns[0].number]), shortened(cell), quantity.names[0]));
   found.columns.push_back({column, factor, label});
 }
 
@@ -240,6 +294,7 @@ void Table::parse(const std::string& text) {
   if (rows_.empty()) rows_ = split(text, delimiter_);
   if (rows_.empty()) throw InputError(fmt::format("{}: is empty", source_));
   header_ = rows_[header];
+  refuse_unclosed(rows_);
   remarks_.assign(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(header));
   rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(header) + 1);
   found_ = find_columns(header_);
@@ -285,11 +340,11 @@ std::optional<Table::Row> Table::read_units_row() {
     const auto factor = unit_factor(quantities_[q].dimension, cell);
     if (!factor)
       throw InputError(fmt::format("{}:{}: column '{}': '{}' is neither a number nor a known unit (allowed: {})",
-                                   source_, row.line, column_name(column.number), cell,
+                                   source_, row.line, shown_name(column.number), shortened(cell),
                                    known_units(quantities_[q].dimension)));
     if (column.factor && *column.factor != *factor)
       throw InputError(fmt::format("{}:{}: column '{}': its header says one unit and the row of units '{}'", source_,
-                                   row.line, column_name(column.number), cell));
+                                   row.line, shown_name(column.number), shortened(cell)));
     column.factor = factor;
   });
   Row taken = row;
@@ -371,7 +426,7 @@ void Table::take_stated_units() {
                                    known_units(quantity.dimension)));
     if (column.factor && *column.factor != *factor)
       throw InputError(fmt::format("{}:{}: column '{}' states its unit, and it is not {}", source_, header_.line,
-                                   column_name(column.number), quantity.stated_unit));
+                                   shown_name(column.number), quantity.stated_unit));
     column.factor = factor;
   });
 }
@@ -382,7 +437,7 @@ void Table::check_columns(const Quantity& quantity, const Found& found, const st
     if (column.factor) continue;
     const auto option = quantity.option.empty() ? "" : fmt::format(", or state it by {}-unit", quantity.option);
     throw InputError(fmt::format("{}:{}: column '{}' has no unit; write {} or add a row of units{} (known: {})",
-                                 source_, header_.line, column_name(column.number), written, option,
+                                 source_, header_.line, shown_name(column.number), written, option,
                                  known_units(quantity.dimension)));
   }
 }
@@ -396,21 +451,23 @@ void Table::check_columns() const {
     if (!found_[q].columns.empty() || !quantity.required) continue;
     if (!found_[q].doubt.empty())
       throw InputError(fmt::format("{}:{}: column '{}' has no known unit; write {} (known: {})", source_, header_.line,
-                                   found_[q].doubt, written, known_units(quantity.dimension)));
+                                   shortened(found_[q].doubt), written, known_units(quantity.dimension)));
     missing += (missing.empty() ? "" : ", ") + written;
     if (!quantity.option.empty())
       options += (options.empty() ? "; or say which it is by " : ", ") + quantity.option + "-column";
   }
   if (missing.empty()) return;
   std::string present;
-  for (const auto& cell : header_.cells) present += (present.empty() ? "" : ", ") + cell;
+  for (const auto& cell : header_.cells) present += (present.empty() ? "" : ", ") + shortened(cell);
   throw InputError(
       fmt::format("{}:{}: missing column {}; the header has: {}{}", source_, header_.line, missing, present, options));
 }
 
 void Table::check_cells() {
   const std::size_t columns = header_.cells.size();
+  refuse_misplaced_quotes(header_);
   for (auto& row : rows_) {
+    refuse_misplaced_quotes(row);
     for (std::size_t extra = columns; extra < row.cells.size(); ++extra) {
       if (row.cells[extra].empty()) continue;
       throw InputError(
@@ -437,7 +494,8 @@ void Table::decide_decimal_mark() {
       const int column = found_[q].columns[k].number;
       const std::string& cell = row.cells[column];
       const std::string number = bare_number(cell);
-      const std::string place = fmt::format("line {}, column '{}': '{}'", row.line, column_name(column), cell);
+      const std::string place =
+          fmt::format("line {}, column '{}': '{}'", row.line, shown_name(column), shortened(cell));
       switch (mark_of(number)) {
         case Mark::kPoint:
           if (point.empty()) point = place;
@@ -468,8 +526,8 @@ double Table::parse_number(const Row& row, int column) const {
   double value = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
   if (error != std::errc() || end != number.data() + number.size())
-    throw InputError(fmt::format("{}:{}: column '{}': '{}' is not a number", source_, row.line, column_name(column),
-                                 row.cells[column]));
+    throw InputError(fmt::format("{}:{}: column '{}': '{}' is not a number", source_, row.line, shown_name(column),
+                                 shortened(row.cells[column])));
   return value;
 }
 
@@ -481,6 +539,10 @@ const Table::Found& Table::found(const std::string& name) const {
 
 std::string Table::column_name(int column) const {
   return header_.cells[column].empty() ? std::to_string(column + 1) : header_.cells[column];
+}
+
+std::string Table::shown_name(int column) const {
+  return shortened(column_name(column));
 }
 
 std::string Table::where(int row) const {

@@ -31,8 +31,8 @@ class Table {
  public:
   // Reads a file; `quantities` are the columns to find. Throws InputError (file, line, column, what was given, what is
   // allowed) for a file that cannot be read, a required column that is missing, appears twice (unless `several`) or has
-  // no known unit, a row with too many cells, text where a number belongs, and decimal commas mixed with decimal
-  // points.
+  // no known unit, a row with too many cells, text where a number belongs, decimal commas mixed with decimal points, a
+  // quote that is not closed or that closes before more text, UTF-16 and NUL bytes.
   Table(const std::filesystem::path& file, std::vector<Quantity> quantities);
   // The same for a text in memory; `source` opens the messages.
   Table(const std::string& text, const std::string& source, std::vector<Quantity> quantities);
@@ -56,10 +56,17 @@ class Table {
   std::string other(int row, int index) const { return rows_[row].cells[others_[index]]; }
 
  private:
+  // A quoted cell over several lines, or one with more text behind its closing quote.
+  struct Quote {
+    int opened = 0, closed = 0;  // lines; closed 0: never
+    bool text_follows = false;
+    int delimiters = 0;  // in it
+  };
   struct Row {
     int line = 0;
     std::vector<std::string> cells;
     int section = 0;
+    std::vector<Quote> quotes = {};
   };
   struct Column {
     int number = 0;                // 0 the first
@@ -86,6 +93,8 @@ class Table {
   bool is_remark(const Row& row) const;
   std::optional<double> unit_in_remarks(Dimension dimension) const;
   void take_stated_units();
+  void refuse_unclosed(const std::vector<Row>& rows) const;
+  void refuse_misplaced_quotes(const Row& row) const;
   void check_columns() const;
   void check_columns(const Quantity& quantity, const Found& found, const std::string& written) const;
   void check_cells();
@@ -95,6 +104,7 @@ class Table {
   const Found& found(const std::string& name) const;
   double parse_number(const Row& row, int column) const;
   std::string column_name(int column) const;
+  std::string shown_name(int column) const;  // of a column, in messages
 
   std::string source_;
   std::vector<Quantity> quantities_;

@@ -6,8 +6,10 @@
 
 #include "case_samples.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/text.hpp"
 #include "strandlab/io/case_estimate.hpp"
 #include "strandlab/io/case_keys.hpp"
+#include "strandlab/io/case_write.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace strandlab::io {
@@ -176,8 +178,8 @@ TEST(CaseRead, BadInputIsAnsweredByFileLineKeyGivenAndAllowed) {
       {"[press]\nspeed_m_s = nan", {"press.speed_m_s = nan", "greater than 0"}},
       {"[run]\nseed = 1.5", {"must be a whole number"}},
       {"[run]\nseed = -1", {"run.seed = -1"}},
-      {"[mat]\nlength_mm = -100", {"panel.toml:2", "mat.length_mm = -100 mm", "greater than 0"}},
-      {"[mat]\nlayer_thickness_mm = 0", {"panel.toml:2", "mat.layer_thickness_mm = 0 mm", "greater than 0"}},
+      {"[mat]\nlength_mm = -100", {"panel.toml:2", "mat.length_mm = -100 mm", "from 0.001 to 100000"}},
+      {"[mat]\nlayer_thickness_mm = 0", {"panel.toml:2", "mat.layer_thickness_mm = 0 mm", "from 0.001 to 1000000000"}},
       {"[materials.m]\ndensity_kg_m3 = 0", {"panel.toml:2", "materials.m.density_kg_m3 = 0 kg/m3", "greater than 0"}},
       {"[materials.m]\nE_R_MPa = -914", {"panel.toml:2", "materials.m.E_R_MPa = -914 MPa", "greater than 0"}},
       {"[materials.m]\nG_RT_MPa = 0", {"panel.toml:2", "materials.m.G_RT_MPa = 0 MPa"}},
@@ -201,7 +203,7 @@ TEST(CaseRead, BadInputIsAnsweredByFileLineKeyGivenAndAllowed) {
       {"[materials.m]\ndensity_kg_m3 = 1600\n[kinds.core]\nmaterial = \"m\"\nlaw = \"crushing\"",
        {"panel.toml:5", "[kinds.core]", "material \"m\"", "density_kg_m3 = 1600", "nothing to crush", "1500"}},
       {"[kinds.core]\nmaterial = \"popla\"", {"one of poplar, vtc", "did you mean poplar?"}},
-      {"[kinds.core]\nthickness_mm = -1", {"panel.toml:2", "kinds.core.thickness_mm = -1 mm", "0 or more"}},
+      {"[kinds.core]\nthickness_mm = -1", {"panel.toml:2", "kinds.core.thickness_mm = -1 mm", "0, or from 0.001 to"}},
       {"[kinds.core]\nangle_spread_deg = 100", {"kinds.core.angle_spread_deg = 100 degrees", "from 0 to 90"}},
       {"[kinds.core]\nyield_factor = 0", {"kinds.core.yield_factor = 0", "greater than 0 and at most 1"}},
       {"[kinds.core]\nstiffness_factor = 2", {"kinds.core.stiffness_factor = 2", "greater than 0 and at most 1"}},
@@ -227,6 +229,114 @@ TEST(CaseRead, BadInputIsAnsweredByFileLineKeyGivenAndAllowed) {
   }
 }
 
+// Sizes that no mat is formed of are refused where they are written, by the range that the reference shows.
+TEST(CaseRead, SizesOfAMatThatCannotBeFormedAreRefusedWhereTheyStand) {
+  for (const auto* key : {"length_mm", "layer_thickness_mm"}) {
+    const auto message = refusal(std::string("[mat]\n") + key + " = 1e-4");
+    EXPECT_NE(message.find(std::string("panel.toml:2: mat.") + key + " = 0.0001 mm: must be from 0.001 to"),
+              std::string::npos)
+        << message;
+  }
+  for (const auto* key : {"thickness_mm", "length_mm"}) {
+    const auto message = refusal(std::string("[kinds.core]\n") + key + " = 1e-4");
+    EXPECT_NE(message.find("0, or from 0.001 to 1000000000"), std::string::npos) << message;
+    EXPECT_NO_THROW(case_from_text(
+        std::string("[kinds.core]\nlength_sd_mm = 0\ngap_mm = 0\ngap_sd_mm = 0\n") + key + " = 0", "panel.toml"));
+  }
+  // What the seed decides is told where the rows are given.
+  const Case c = case_from_text(
+      "[mat]\nlength_mm = 1\nrows = [\"core\"]\n[kinds.core]\nlength_mm = 1\nlength_sd_mm = 0\ngap_mm = 1e6\n"
+      "gap_sd_mm = 0\n",
+      "panel.toml");
+  const auto message = message_of<InputError>([&] { make_mat(c); });
+  EXPECT_NE(message.find("panel.toml:3: mat.rows: layup: row 1"), std::string::npos) << message;
+}
+
+TEST(CaseRead, ValuesAreShownAsTheyWereMeant) {
+  using namespace std::string_literals;
+  const std::vector<Bad> table{
+      {"[run]\nseed = 3.0", {"panel.toml:2: run.seed = 3.0: must be a whole number, such as 3", "decimal point"}},
+      {"[press]\nspeed_m_s = 1,5", {"panel.toml:2: not valid TOML", "numbers have a decimal point: 1.5"}},
+      {"[press]\nspeed_m_s = 1,5  # m/s", {"decimal point: 1.5"}},
+      {"[press]\nspeed_m_s = \"1,5\"", {"must be a number, this is a text; numbers have a decimal point: 1.5"}},
+      {"[mat]\nfile = \"C:\\Users\\mat.json\"",
+       {"panel.toml:2: not valid TOML", "write / in file names, or single quotes"}},
+      {"[mat]\nfile = \"C:\\new\\table.json\"", {"panel.toml:2: mat.file = ", "control character", "single quotes"}},
+      {"[glue]\nfrom_bondline = \"C:\\dls.json\"", {"panel.toml:2", "single quotes"}},
+      {"[glue]\nfrom_bondline = \"C:\\table.json\"", {"panel.toml:2: glue.from_bondline", "single quotes"}},
+      {"[press]\ncompactions = [0, nan]", {"press.compactions = [0, nan]: entry 2, nan, must be from 0"}},
+      {"[press]\ncompactions = [0, inf]", {"entry 2, inf, must be a finite number"}},
+      {"[press]\ncompactions = [0.1, 0.3, 0.2]", {"entry 3, 0.2, is not above entry 2, 0.3, "}},
+      {"[press]\ncompactions = [0, \"a\"]", {"must be a list of numbers, entry 2, \"a\", is a text"}},
+      {"[glue]\ncompliance_t_mm_per_MPa = [0, 0.1, nan]", {"entry 3, nan, must be a finite number"}},
+      {"[test]\nkinds = [\"tension\", 3]", {"must be a list of texts, entry 2, 3, is a whole number"}},
+      {"[test]\nkinds = [\"tension\", \"tensions\"]", {"entry 2, \"tensions\" is not one of"}},
+      {"\xFF\xFE[\0m\0"s, {"panel.toml: this file is UTF-16; save it as UTF-8"}},
+      {"[\0m\0a\0"s, {"panel.toml: this file is UTF-16; save it as UTF-8"}},
+      {"[mat]\n\0length_mm = -1"s, {"panel.toml:2: a NUL byte"}},
+      {"[mat]\n# gr\xFCn\nlength_mm = 9", {"panel.toml:2: the byte \\xfc is not UTF-8"}},
+      {"[run]\nseed = 9000000000000000001", {"run.seed = 9000000000000000001: must be from 0 to 9000000000000000000"}},
+  };
+  for (const auto& bad : table) {
+    const auto message = refusal(bad.text);
+    for (const auto& part : bad.said)
+      EXPECT_NE(message.find(part), std::string::npos) << message << "\nlacks: " << part;
+  }
+  EXPECT_EQ(case_from_text("\xEF\xBB\xBF[mat]\nlength_mm = 9", "panel.toml").length_mm, 9);
+  for (const auto* text : {"press.speed_m_s=1,5", "mat.file=C:\\mats\\a.json", "mat.file=\"C:\\mats\\a.json\""})
+    EXPECT_NE(refusal("", {text}).find(text[0] == 'p' ? "decimal point: 1.5" : "single quotes"), std::string::npos)
+        << refusal("", {text});
+  EXPECT_NE(refusal("", {"press.speed_m_s=1\0 5"s}).find("no text in UTF-8"), std::string::npos);
+  EXPECT_NE(refusal("", {"mat.file=f\xFCr.json"}).find("no text in UTF-8"), std::string::npos);
+}
+
+// A megabyte in, a line out.
+TEST(CaseRead, LongValuesAreShortenedInMessages) {
+  const std::string a_lot(1000000, 'x');
+  for (const auto& text : {"[press]\nspeed_m_s = \"" + a_lot + "\"", "[press]\nsides = \"" + a_lot + "\"",
+                           "[press]\n" + a_lot + " = 1", "[" + a_lot + "]\n", "[kinds." + a_lot + "]\n",
+                           "[kinds.\" " + a_lot + "\"]\n", "[mat]\nrows = [\"" + a_lot + "\"]",
+                           "[mat]\nrows = [\"core*" + a_lot + "\"]", "[press]\nspeed_m_s = " + a_lot}) {
+    const auto message = refusal(text);
+    EXPECT_LT(message.size(), 1000U) << text.substr(0, 30);
+    EXPECT_NE(message.find("panel.toml:"), std::string::npos);
+  }
+  EXPECT_LT(refusal("", {"press.speed_m_s=" + a_lot}).size(), 1000U);
+  EXPECT_LT(refusal("", {a_lot}).size(), 1000U);
+}
+
+// Beyond 2^53 doubles skip whole numbers.
+TEST(CaseRead, SeedsAreExactWholeNumbers) {
+  const Case one = case_from_text("[run]\nseed = 9007199254740993", "panel.toml");
+  const Case other = case_from_text("[run]\nseed = 9007199254740992", "panel.toml");
+  EXPECT_EQ(one.seed, 9007199254740993U);
+  EXPECT_NE(resolved_text(one).find("seed = 9007199254740993\n"), std::string::npos);
+  EXPECT_NE(case_hash(one, Step::kMat), case_hash(other, Step::kMat));
+  EXPECT_EQ(case_from_text("[run]\nseed = 9000000000000000000", "panel.toml").seed, 9000000000000000000U);
+}
+
+// An old share's folder: the case file written from it is UTF-8 and names two folders by two texts.
+TEST(CaseRead, FileNamesThatAreNotUtf8AreWrittenAsText) {
+  Case c = case_from_text("", "panel.toml"), other = c;
+  c.mat_file = "/f\xFCr/mat.json";
+  other.mat_file = "/f\xE4r/mat.json";
+  EXPECT_TRUE(is_utf8(resolved_text(c)));
+  EXPECT_NE(resolved_text(c).find("f\\\\xfcr"), std::string::npos);
+  EXPECT_NE(case_hash(c, Step::kMat), case_hash(other, Step::kMat));
+  EXPECT_NO_THROW(case_from_text(resolved_text(c), "case.toml"));
+}
+
+TEST(CaseRead, MatFilesThatCannotBeReadAreNamedByTheCase) {
+  const auto reason = [](const std::string& text, const std::vector<std::string>& overrides = {}) {
+    return message_of<InputError>([&] { make_mat(case_from_text(text, "panel.toml", overrides)); });
+  };
+  const auto message = reason("[mat]\nlength_mm = 9\nfile = \"/none/x.json\"");
+  EXPECT_NE(message.find("panel.toml:3: mat.file = \"/none/x.json\": /none/x.json: cannot be read"), std::string::npos)
+      << message;
+  EXPECT_NE(message.find("No such file"), std::string::npos) << message;
+  EXPECT_NE(reason("", {"mat.file=/none/x.json"}).find("--set mat.file=/none/x.json: mat.file = "), std::string::npos);
+}
+
 TEST(CaseRead, BadOverridesAreAnsweredByTheirText) {
   for (const auto* text : {"press", "=3", "press.speed_m_s=", "press.compactions=[0", "press.speed_m_s=\"a", "a b=3",
                            "press.speed_m_s=1\nrun.seed=2"}) {
@@ -242,6 +352,7 @@ TEST(CaseRead, FilesThatCannotBeRead) {
   EXPECT_NE(message_of<InputError>([&] { read_case(folder / "none.toml"); }).find("no such case file"),
             std::string::npos);
   EXPECT_NE(message_of<InputError>([&] { read_case(folder.path()); }).find("folder"), std::string::npos);
+  EXPECT_NE(message_of<InputError>([&] { read_case(""); }).find("no case file is given"), std::string::npos);
 }
 
 }  // namespace

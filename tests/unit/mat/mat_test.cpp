@@ -265,6 +265,17 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"NotAnObject", "[1, 2]", {"found [1,2]"}},
         Fault{"NotJson", "length = 100\n", {"line 1", "not valid JSON"}},
         Fault{"CutOff", "{\"length_mm\":100,\n\"layers\":[\n", {"line 3", "not valid JSON"}},
+        Fault{"DecimalComma",
+              second_strand(R"({"x0":50,"x1":60,5})"),
+              {"line 1", "not valid JSON", "numbers have a decimal point, 1.5"}},
+        Fault{"NotUtf8",
+              second_strand("\n{\"x0\":50,\"x1\":60,\"material\":\"\xFC\"}"),
+              {":2: the byte \\xfc is not UTF-8"}},
+        Fault{"TextAfterNul", second_strand(R"({"x0":50,"x1":60})") + std::string("\n\0{", 3), {":2: a NUL byte"}},
+        Fault{"Utf16", std::string("{\0}\0", 4), {"this file is UTF-16; save it as UTF-8"}},
+        Fault{"LongRole",
+              second_layer("{\"role\":\"" + std::string(100000, 'x') + R"(","strands":[{"x0":0,"x1":9}]})"),
+              {"xxx... (100000 characters)\"; the strand kinds are"}},
         Fault{"EmptyFile", "", {"line 1", "not valid JSON"}}),
     [](const auto& tested) { return tested.param.name; });
 
@@ -275,6 +286,9 @@ TEST_F(MatFile, MissingFileAndFolderAreNamed) {
       FAIL() << "accepted";
     } catch (const InputError& error) {
       EXPECT_EQ(std::string(error.what()).find(file.string() + ": "), 0U) << error.what();
+      EXPECT_NE(std::string(error.what()).find(file == folder_.path() ? "is a folder" : "No such file"),
+                std::string::npos)
+          << error.what();
     }
   }
 }

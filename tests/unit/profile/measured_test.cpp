@@ -43,6 +43,12 @@ TEST(Measured, CommaAndPoint) {
   expect_specimen(read("Position (mm),Density (kg/m3)\n0,900\n0.25,700\n0.5,600\n0.75,720\n1.0,880\n"));
 }
 
+// It would take the rows that follow into its cell.
+TEST(Measured, QuoteThatIsNotClosedIsNamedByItsLine) {
+  expect_message("Position (mm),Density (kg/m3)\n0,900\n0.25,\"700\n0.5,600\n0.75,720\n1.0,880\n",
+                 {"xray.csv:3", "quote", "not closed"});
+}
+
 TEST(Measured, LinesOfTheInstrumentAboveTheHeader) {
   expect_specimen(
       read("X-ray densitometer\nDate:,12.03.2009\nSpecimen thickness (mm),1.00\n\n"

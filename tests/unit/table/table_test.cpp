@@ -167,9 +167,57 @@ TEST(Table, ColumnGivenTwiceIsAnError) {
             std::string::npos);
 }
 
+// A quote that is not closed would take the specimens behind it into one cell, and they would be missed by nobody.
+TEST(Table, QuoteThatIsNotClosedIsNamedByItsLine) {
+  const std::string header = "id,resin,E1_MPa,t1_mm,k_N_per_mm\n";
+  const auto refused = [&](const std::string& rows, const std::string& where) {
+    const auto text = message(header + rows);
+    EXPECT_NE(text.find("dls.csv:" + where), std::string::npos) << text << "\nof:\n" << rows;
+    EXPECT_NE(text.find("quote"), std::string::npos) << text;
+  };
+  refused("a,PF,1,2,3\nb,\"PF,1,2,3\nc,PF,1,2,3\n", "3: a cell opens with a quote (\") that is not closed to the end");
+  refused("a,PF,1,2,\"3\n", "2: ");
+  refused("a,PF,1,2,3\n\"", "3: ");
+  // The next quote, opening another cell, is taken for its end.
+  refused("a,\"PF,1,2,3\nb,\"PF\",1,2,3\nc,PF,1,2,3\n",
+          "2: a cell opens with a quote (\") that is not closed before line 3");
+  refused("a,\"PF,1,2,3\n\"b\",PF,1,2,3\n", "2: ");
+  // One more that opens nothing ends it, and a specimen is in the cell.
+  refused("a,\"PF,1,2,3\nb,PF\",1,2,3\nc,PF,1,2,3\n", "2: ");
+  refused("a,\"PF,1,2,3\nb,PF,1,2,3\"\nc,PF,1,2,3\n", "2: ");
+  refused("a,\"P\"F,1,2,3\n", "2: text follows the closing quote");
+  EXPECT_NE(message("id,\"resin,E1_MPa,t1_mm,k_N_per_mm\na,PF,1,2,3\n").find("dls.csv:1: a cell opens"),
+            std::string::npos);
+  EXPECT_NE(message("A \"remark\"\n\"not closed\n\n" + header + "a,PF,1,2,3\n").find("dls.csv:2: a cell opens"),
+            std::string::npos);
+}
+
+TEST(Table, QuotedCellsMayHoldLineBreaksQuotesAndDelimiters) {
+  const Table t = table(
+      "\"lines of \"\"remarks\"\",\nabove\"\n\"A\" remark of old\n# 3, \"no quote here\n"
+      "id,\"notes,\r\nand more\",E1_MPa,t1_mm,k_N_per_mm\na,\"one,\ntwo \"\"and\"\" \n\nthree\" ,9936,0.69,3014\n"
+      "b, \"3\"\" thick\",10120.5,0.715,2950.25\n");
+  expect_two_specimens(t);
+  EXPECT_EQ(t.other_columns(), std::vector<std::string>{"notes, and more"});
+  EXPECT_EQ(t.other(0, 0), "one, two \"and\"   three");
+  EXPECT_EQ(t.other(1, 0), "3\" thick");
+  EXPECT_EQ(t.where(1), "dls.csv:11");
+}
+
+TEST(Table, InchMarksAndApostrophesInCellsAreText) {
+  const Table t =
+      table("id,notes,E1_MPa,t1_mm,k_N_per_mm\na,3\" thick,9936,0.69,3014\nb,o'clock '\",10120.5,0.715,2950.25\n");
+  expect_two_specimens(t);
+  EXPECT_EQ(t.other(0, 0), "3\" thick");
+  EXPECT_EQ(t.other(1, 0), "o'clock '\"");
+}
+
 TEST(Table, UnreadableFiles) {
   EXPECT_NE(message("").find("is empty"), std::string::npos);
   EXPECT_NE(message(std::string("\xFF\xFEi\0d\0", 6)).find("UTF-16"), std::string::npos);
+  EXPECT_NE(message(std::string("i\0d\0,\0", 6)).find("UTF-16"), std::string::npos);
+  EXPECT_NE(message(std::string("id,E1_MPa,t1_mm,k_N_per_mm\na,1,2,3\0004\n", 37)).find("dls.csv:2: a NUL byte"),
+            std::string::npos);
   EXPECT_THROW(Table(std::filesystem::path("no_such_file.csv"), quantities()), InputError);
   EXPECT_THROW(Table(std::filesystem::temp_directory_path(), quantities()), InputError);
 }
