@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
+#include <regex>
 #include <system_error>
+#include <utility>
 
 #include "strandlab/core/error.hpp"
 
@@ -21,7 +24,8 @@ std::string reason(int error) {
 // The user chose a place that cannot be written (InputError), or the disk fails under a run (RunError).
 [[noreturn]] void fail(const fs::path& file, const std::string& what, int error) {
   const std::string message = fmt::format("cannot write {}: {}: {}", file.string(), what, reason(error));
-  if (error == EACCES || error == EPERM || error == EROFS || error == ENOENT || error == ENOTDIR || error == EISDIR) {
+  if (error == EACCES || error == EPERM || error == EROFS || error == ENOENT || error == ENOTDIR || error == EISDIR ||
+      error == ENAMETOOLONG || error == ELOOP) {
     throw InputError(message);
   }
   throw RunError(message);
@@ -33,6 +37,8 @@ class Descriptor {
   ~Descriptor() {
     if (fd_ >= 0) ::close(fd_);
   }
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&&) = delete;
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   int get() const { return fd_; }
@@ -55,6 +61,7 @@ void check_place(const fs::path& file) {
   std::error_code error;
   const fs::path folder = folder_of(file);
   if (!fs::exists(folder, error)) {
+    if (error) fail(file, fmt::format("cannot use the folder {}", folder.string()), error.value());
     throw InputError(fmt::format("cannot write {}: the folder {} does not exist", file.string(), folder.string()));
   }
   if (fs::is_directory(file, error)) {
@@ -68,10 +75,21 @@ void sync_folder(const fs::path& folder) {
   if (fd.valid()) ::fsync(fd.get());
 }
 
+// Opens a new file beside `file`. Another process of the same number, on another machine or before a kill, may have the
+// name: then the next number is tried.
+std::pair<fs::path, Descriptor> open_temporary(const fs::path& file) {
+  static std::atomic<unsigned> number{0};
+  while (true) {
+    fs::path temporary = file;
+    temporary += fmt::format(".{}-{}.tmp", ::getpid(), ++number);
+    Descriptor fd(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (fd.valid()) return {std::move(temporary), std::move(fd)};
+    if (errno != EEXIST) fail(file, "cannot create a file in that folder", errno);
+  }
+}
+
 // Bytes on disk when it returns. `file` is the name the user knows.
-void write_synced(const fs::path& temporary, const fs::path& file, std::string_view bytes) {
-  Descriptor fd(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (!fd.valid()) fail(file, "cannot create a file in that folder", errno);
+void write_synced(Descriptor& fd, const fs::path& file, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t n = ::write(fd.get(), bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
@@ -86,10 +104,9 @@ void write_synced(const fs::path& temporary, const fs::path& file, std::string_v
 
 void write_atomically(const fs::path& file, std::string_view bytes, const std::function<void()>& before_rename) {
   check_place(file);
-  fs::path temporary = file;
-  temporary += ".tmp";
+  auto [temporary, fd] = open_temporary(file);
   try {
-    write_synced(temporary, file, bytes);
+    write_synced(fd, file, bytes);
     if (before_rename) before_rename();
     if (::rename(temporary.c_str(), file.c_str()) != 0) fail(file, "cannot rename the temporary file", errno);
   } catch (...) {
@@ -97,6 +114,20 @@ void write_atomically(const fs::path& file, std::string_view bytes, const std::f
     throw;
   }
   sync_folder(folder_of(file));
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw InputError(
+        fmt::format("cannot make the folder {}: {}; choose another with -o", folder.string(), error.message()));
+  }
+}
+
+bool is_temporary(const fs::path& file) {
+  static const std::regex name(R"(.+\.\d+-\d+\.tmp)");
+  return std::regex_match(file.filename().string(), name);
 }
 
 }  // namespace strandlab

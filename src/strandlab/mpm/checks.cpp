@@ -37,14 +37,13 @@ void check_grid(const Grid<Dim>& grid) {
 }
 
 template <int Dim>
-void check_inside(const std::vector<Particles<Dim>>& bodies, const Grid<Dim>& grid, bool has_platens,
-                  const EngineState& state) {
+void check_inside(const std::vector<Particles<Dim>>& bodies, const Grid<Dim>& grid, const EngineState& state) {
   for (const auto& body : bodies) {
     body.each([&](int p, const Vec<Dim>& x, const double*) {
       for (int a = 0; a < Dim; ++a) {
         const auto allowed = [&](int side) {
           if (a < Dim - 1 && grid.sides[a][side] == Side::kRoller) return 0.25 * grid.cell[a];
-          return (a == Dim - 1 && has_platens ? 1.0 : 0.25) * (grid.hi[a] - grid.lo[a]) + 2 * grid.cell[a];
+          return grid.hi[a] - grid.lo[a] + 2 * grid.cell[a];
         };
         if (x[a] >= grid.lo[a] - allowed(0) && x[a] <= grid.hi[a] + allowed(1)) continue;
         throw RunError(
@@ -83,8 +82,8 @@ template std::string text<2>(const Vec<2>&);
 template std::string text<3>(const Vec<3>&);
 template void check_grid(const Grid<2>&);
 template void check_grid(const Grid<3>&);
-template void check_inside(const std::vector<Particles<2>>&, const Grid<2>&, bool, const EngineState&);
-template void check_inside(const std::vector<Particles<3>>&, const Grid<3>&, bool, const EngineState&);
+template void check_inside(const std::vector<Particles<2>>&, const Grid<2>&, const EngineState&);
+template void check_inside(const std::vector<Particles<3>>&, const Grid<3>&, const EngineState&);
 template RunError particle_failure(const Particles<2>&, int, const EngineState&);
 template RunError particle_failure(const Particles<3>&, int, const EngineState&);
 

@@ -18,11 +18,10 @@ std::string text(const Vec<Dim>& x);  // "1.0000, 2.0000 mm"
 template <int Dim>
 void check_grid(const Grid<Dim>& grid);
 
-// Throws RunError for a particle behind a roller by more than a quarter cell or outside the window by more than the
-// margin: a quarter of the window and two cells; across the platens the whole window and two cells.
+// Throws RunError for a particle behind a roller by more than a quarter cell, or outside a free side or a platen by
+// more than the window is wide and two cells: no strand is longer, and one that a free side lets go is not lost.
 template <int Dim>
-void check_inside(const std::vector<Particles<Dim>>& bodies, const Grid<Dim>& grid, bool has_platens,
-                  const EngineState& state);
+void check_inside(const std::vector<Particles<Dim>>& bodies, const Grid<Dim>& grid, const EngineState& state);
 
 // Names the particle of a block that inverted, else the one whose stress is not finite.
 template <int Dim>

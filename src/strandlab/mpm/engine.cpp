@@ -21,7 +21,8 @@
 namespace strandlab::mpm {
 namespace {
 
-constexpr int kTimeStepInterval = 32;  // steps between updates of the time step
+constexpr int kTimeStepInterval = 32;  // steps between updates of the time step, and between checks of all particles
+constexpr double kFarInAStep = 0.1;    // cells; particles that move further in a step are checked after it
 constexpr double kMaxDrift = 0.45;     // cells a particle may move, of kWindowDrift, before the windows are laid again
 constexpr double kFilterDrift = 0.1;   // the same before a step that filters: it looks at positions after the step
 
@@ -56,6 +57,7 @@ struct Engine<Dim>::Impl {
   Vec<Dim> gravity = Vec<Dim>::Zero();
   EngineState state;
   double first_time_step = 0;
+  std::array<double, 3> furthest{};  // cells that a particle moved at most in the last step, per axis
   std::array<double, 3> drift{};  // cells that points may have moved since the windows were laid, per axis
   bool windows_valid = false;
   double force[2] = {0, 0};  // N, of the bottom and top platens
@@ -79,7 +81,6 @@ struct Engine<Dim>::Impl {
     tile_results.resize(tiles.size());
     tractions = Tractions<Dim>(input);
     state.time_step_s = first_time_step = time_step();
-    check_inside(bodies, grid, has_platens, state);
   }
 
   double stretch() const {  // of the cells' height against grid.cell
@@ -122,8 +123,13 @@ struct Engine<Dim>::Impl {
     return !windows_valid || *std::max_element(drift.begin(), drift.end()) > (filter_due() ? kFilterDrift : kMaxDrift);
   }
 
+  // Windows around a particle that has flown off would not fit into memory.
+  void check_particles() const {
+    check_inside(bodies, grid, state);
+    check_stretch(bodies, state);
+  }
+
   void make_windows() {
-    check_inside(bodies, grid, has_platens, state);
     lay_windows(bodies, frame(), state, fields);
     pencil_results.resize(fields.table.pencils.size());
     views = views_of(bodies, fields);
@@ -133,7 +139,12 @@ struct Engine<Dim>::Impl {
 
   void step() {
     const double t0 = options.profile ? seconds() : 0, c0 = options.profile ? ticks() : 0;
-    if (state.step % kTimeStepInterval == 0) update_time_step();
+    // When particles are checked depends on the step and their motion alone, not on where windows were laid: a run that
+    // goes on from a checkpoint fails where an undisturbed one does.
+    if (state.step % kTimeStepInterval == 0) {
+      update_time_step();
+      check_particles();
+    }
     if (windows_stale()) make_windows();
     const Frame<Dim> f = frame();
     scatter(f);
@@ -147,6 +158,7 @@ struct Engine<Dim>::Impl {
     gather(f);
     if (filter_due()) state.energies.filter += filter.apply(f, fields, bodies);
     advance(f);
+    if (*std::max_element(furthest.begin(), furthest.end()) > kFarInAStep) check_particles();
     if (options.profile) {
       timing_seconds += seconds() - t0;
       timing_ticks += ticks() - c0;
@@ -156,6 +168,7 @@ struct Engine<Dim>::Impl {
   // A step whose nodes take their velocity from outside.
   void impose(double dt, const std::function<Vec<Dim>(const Vec<Dim>&)>& velocity) {
     state.time_step_s = dt;
+    check_particles();
     if (windows_stale()) make_windows();
     const Frame<Dim> f = frame();
     const double filtered_before = state.energies.filter;
@@ -254,13 +267,13 @@ struct Engine<Dim>::Impl {
                      bodies[plan.tiles[t].body].lanes.data(), options.profile, tile_results[t]);
     });
     long long yielding = 0;
-    std::array<double, 3> moved{};
+    furthest = {};
     for (int t = 0; t < count; ++t) {
       const auto& r = tile_results[t];
       state.energies.plastic += r.plastic;
       state.energies.filter -= r.kinetic_change + r.stress_change;
       yielding += r.yielding;
-      for (int a = 0; a < 3; ++a) moved[a] = std::max(moved[a], r.drift[a]);
+      for (int a = 0; a < 3; ++a) furthest[a] = std::max(furthest[a], r.drift[a]);
       if (r.bad) throw particle_failure(bodies[plan.tiles[t].body], r.bad - 1, state);
       timing.weights += r.ticks[0];
       timing.scatter += r.ticks[1];
@@ -268,7 +281,7 @@ struct Engine<Dim>::Impl {
       timing.material += r.ticks[3];
       timing.gather += r.ticks[4];
     }
-    for (int a = 0; a < 3; ++a) drift[a] += moved[a];
+    for (int a = 0; a < 3; ++a) drift[a] += furthest[a];
     yield_visits += static_cast<double>(yielding);
     particle_steps += static_cast<long long>(particle_count);
   }

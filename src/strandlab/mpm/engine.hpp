@@ -61,7 +61,8 @@ struct Spring {
 enum class Side { kFree, kRoller };
 
 // Background grid: cells of size `cell`, a grid line through `origin` on each axis. Rollers sit on the planes lo and hi
-// (these must be grid planes). A particle outside lo..hi (free sides: more than `margin` outside) stops the run.
+// (these must be grid planes). A particle behind one, or a whole window outside a free side, stops the run
+// (checks.hpp).
 template <int Dim>
 struct Grid {
   Vec<Dim> cell;                                 // mm
@@ -120,7 +121,7 @@ struct Timing {  // s, summed over threads; 0 unless Options::profile
 template <int Dim>
 class Engine {
  public:
-  // Throws InputError for a grid that cannot hold the bodies (rollers off the grid lines, bodies outside).
+  // Throws InputError for a grid that cannot be (rollers off the grid lines); of bodies outside the first step speaks.
   Engine(const std::vector<Body<Dim>>& bodies, const Grid<Dim>& grid, const Options& options);
   ~Engine();
   Engine(Engine&&) noexcept;

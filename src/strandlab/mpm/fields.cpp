@@ -117,6 +117,13 @@ std::vector<Vec<Dim>> points_of(const typename Particles<Dim>::FacePoints& face,
 }  // namespace
 
 template <int Dim>
+void check_stretch(const std::vector<Particles<Dim>>& bodies, const EngineState& state) {
+  for (const auto& body : bodies) {
+    for (const auto& face : body.faces) static_cast<void>(points_of<Dim>(face, body, state));
+  }
+}
+
+template <int Dim>
 void lay_windows(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, const EngineState& state,
                  Fields& fields) {
   fields.windows.assign(bodies.size(), {});
@@ -221,6 +228,8 @@ std::size_t bytes(const Fields& fields) {
          t.pencils.size() * sizeof(Pencil) + t.row_start.size() * sizeof(int) + t.slots.size() * sizeof(RowField);
 }
 
+template void check_stretch(const std::vector<Particles<2>>&, const EngineState&);
+template void check_stretch(const std::vector<Particles<3>>&, const EngineState&);
 template void lay_windows(const std::vector<Particles<2>>&, const Frame<2>&, const EngineState&, Fields&);
 template void lay_windows(const std::vector<Particles<3>>&, const Frame<3>&, const EngineState&, Fields&);
 template std::vector<BodyView<2>> views_of(std::vector<Particles<2>>&, Fields&);

@@ -18,6 +18,10 @@ struct Fields {
   AlignedArray nodes, surface;  // records of the fields and of the bodies' faces: see kernels.hpp
 };
 
+// Throws RunError for a particle whose faces lie so far from its middle that it is no part of a strand any more.
+template <int Dim>
+void check_stretch(const std::vector<Particles<Dim>>& bodies, const EngineState& state);
+
 // Windows around the particles, their mirror images in the platens and the face points where these are now; all records
 // become zero. Throws RunError where a face point is further from its particle than any wood bears.
 template <int Dim>

@@ -3,15 +3,21 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <signal.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 #include <system_error>
+#include <thread>
 
 #include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
@@ -101,16 +107,28 @@ class Pipe {
 
 struct Finished {
   int status = 0;  // of waitpid; -1 when the program could not be started
+  bool in_time = true;
   std::string out, messages;
 };
 
-// Everything that comes out of both pipes until they close.
-void drain(Pipe& out, Pipe& messages, Finished& finished) {
+using Clock = std::chrono::steady_clock;
+
+// Milliseconds to a moment, 0 where it has passed.
+int left_ms(Clock::time_point end) {
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
+  return static_cast<int>(std::clamp<std::int64_t>(left, 0, 1 << 30));
+}
+
+// Everything that comes out of both pipes until they close. Returns whether they did so before `end`.
+bool drain(Pipe& out, Pipe& messages, Clock::time_point end, Finished& finished) {
   std::array<pollfd, 2> ends{pollfd{out.read_end(), POLLIN, 0}, pollfd{messages.read_end(), POLLIN, 0}};
   const std::array<std::string*, 2> texts{&finished.out, &finished.messages};
   std::array<char, 1U << 16U> buffer{};
   while (ends[0].fd >= 0 || ends[1].fd >= 0) {
-    if (::poll(ends.data(), ends.size(), -1) < 0 && errno != EINTR) return;
+    const int ready = ::poll(ends.data(), ends.size(), left_ms(end));
+    if (ready == 0) return false;
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready < 0) return true;
     for (std::size_t e = 0; e < 2; ++e) {
       if (ends[e].fd < 0 || ends[e].revents == 0) continue;
       const ssize_t n = ::read(ends[e].fd, buffer.data(), buffer.size());
@@ -118,46 +136,75 @@ void drain(Pipe& out, Pipe& messages, Finished& finished) {
       if (n == 0 || (n < 0 && errno != EINTR)) ends[e].fd = -1;
     }
   }
+  return true;
 }
 
-// Runs `program` on a script file and collects what it prints.
-Finished run(const std::string& program, const std::string& script_file) {
+// Waits for a program that has closed its output. Returns whether it ended before `end`.
+bool wait_until(pid_t child, Clock::time_point end, int& status) {
+  while (true) {
+    const pid_t done = ::waitpid(child, &status, WNOHANG);
+    if (done == child || (done < 0 && errno != EINTR)) return true;
+    if (left_ms(end) == 0) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+// The script as a file in memory, at its start: nothing is left of it, and no other run can take it for its own.
+class ScriptFile {
+ public:
+  explicit ScriptFile(const std::string& text) : fd_(::memfd_create("gnuplot script", MFD_CLOEXEC)) {
+    std::string_view left = text;
+    while (fd_ >= 0 && !left.empty()) {
+      const ssize_t n = ::write(fd_, left.data(), left.size());
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) break;
+      left.remove_prefix(static_cast<std::size_t>(n));
+    }
+    if (fd_ < 0 || !left.empty() || ::lseek(fd_, 0, SEEK_SET) != 0)
+      throw RunError("cannot keep a gnuplot script in memory: " + std::generic_category().message(errno));
+  }
+  ~ScriptFile() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  ScriptFile(const ScriptFile&) = delete;
+  ScriptFile& operator=(const ScriptFile&) = delete;
+  int descriptor() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+// Runs a program with a script as its standard input and collects what it prints. It has a process group of its own, so
+// that what it has started ends with it.
+Finished run(const Gnuplot& gnuplot, const std::string& script) {
+  const ScriptFile input(script);
   Pipe out, messages;
   posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
   ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_adddup2(&actions, input.descriptor(), STDIN_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, out.write_end(), STDOUT_FILENO);
   ::posix_spawn_file_actions_adddup2(&actions, messages.write_end(), STDERR_FILENO);
-  std::array<char*, 3> arguments{const_cast<char*>(program.c_str()), const_cast<char*>(script_file.c_str()), nullptr};
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  std::array<char*, 2> arguments{const_cast<char*>(gnuplot.program.c_str()), nullptr};
   pid_t child = 0;
-  const int error = ::posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
+  const int error = ::posix_spawnp(&child, gnuplot.program.c_str(), &actions, &attributes, arguments.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
+  ::posix_spawnattr_destroy(&attributes);
   Finished finished;
-  if (error != 0) return {-1, "", std::generic_category().message(error)};
+  if (error != 0) return {-1, true, "", std::generic_category().message(error)};
   out.close(1);
   messages.close(1);
-  drain(out, messages, finished);
+  const auto end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(gnuplot.limit_s));
+  finished.in_time = drain(out, messages, end, finished) && wait_until(child, end, finished.status);
+  if (finished.in_time) return finished;
+  ::kill(-child, SIGKILL);
   while (::waitpid(child, &finished.status, 0) < 0 && errno == EINTR) {
   }
   return finished;
 }
-
-// A script beside the picture, gone with this object.
-class ScriptFile {
- public:
-  ScriptFile(std::filesystem::path file, const std::string& text) : file_(std::move(file)) {
-    write_atomically(file_, text);
-  }
-  ~ScriptFile() {
-    std::error_code ignored;
-    std::filesystem::remove(file_, ignored);
-  }
-  ScriptFile(const ScriptFile&) = delete;
-  ScriptFile& operator=(const ScriptFile&) = delete;
-  std::string name() const { return std::filesystem::absolute(file_).string(); }
-
- private:
-  std::filesystem::path file_;
-};
 
 }  // namespace
 
@@ -200,27 +247,28 @@ std::string gnuplot_script(const Plot& plot) {
 }
 
 std::optional<std::string> draw_script(const std::string& script, const std::filesystem::path& png,
-                                       const std::string& program) {
-  std::filesystem::path beside = png;
-  beside.replace_extension(".gnuplot");
-  const ScriptFile file(beside, script);
-  const Finished gnuplot = run(program, file.name());
-  if (gnuplot.status == -1) {
+                                       const Gnuplot& gnuplot) {
+  const Finished finished = run(gnuplot, script);
+  if (finished.status == -1) {
     return fmt::format("no picture {}: cannot start {} ({}); install the package gnuplot-nox to get plots",
-                       png.string(), program, gnuplot.messages);
+                       png.string(), gnuplot.program, finished.messages);
   }
-  if (gnuplot.status != 0 || gnuplot.out.empty()) {
-    return fmt::format("no picture {}: {} failed: {}", png.string(), program, gnuplot.messages);
+  if (!finished.in_time) {
+    return fmt::format("no picture {}: {} was not done after {:g} s and was ended", png.string(), gnuplot.program,
+                       gnuplot.limit_s);
   }
-  write_atomically(png, gnuplot.out);
+  if (finished.status != 0 || finished.out.empty()) {
+    return fmt::format("no picture {}: {} failed: {}", png.string(), gnuplot.program, finished.messages);
+  }
+  write_atomically(png, finished.out);
   return std::nullopt;
 }
 
-std::optional<std::string> draw(const Plot& plot, const std::filesystem::path& png, const std::string& program) {
+std::optional<std::string> draw(const Plot& plot, const std::filesystem::path& png, const Gnuplot& gnuplot) {
   bool empty = true;
   for (const auto& curve : plot.curves) empty = empty && curve.x.empty();
   if (empty) return fmt::format("no picture {}: nothing to plot yet", png.string());
-  return draw_script(gnuplot_script(plot), png, program);
+  return draw_script(gnuplot_script(plot), png, gnuplot);
 }
 
 }  // namespace strandlab::report

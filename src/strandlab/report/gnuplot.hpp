@@ -36,14 +36,19 @@ struct Plot {
 // (dark) to the last (light) of a sequential map.
 std::string gnuplot_script(const Plot& plot);
 
+// What draws, and how long it may take: a plot takes a second, a gnuplot that waits for something is ended.
+struct Gnuplot {
+  std::string program = "gnuplot";
+  double limit_s = 60;
+};
+
 // Runs a gnuplot program that prints a PNG to its standard output and replaces `png` atomically by it. Returns a
-// sentence for the log where gnuplot is missing or fails; throws as write_atomically(). `program` is the gnuplot to
-// run.
+// sentence for the log where gnuplot is missing, fails or takes too long; throws as write_atomically(), and RunError
+// where the system has no pipes left.
 std::optional<std::string> draw_script(const std::string& script, const std::filesystem::path& png,
-                                       const std::string& program = "gnuplot");
+                                       const Gnuplot& gnuplot = {});
 
 // The same for a plot; nothing is drawn, and the sentence says so, where its curves have no points.
-std::optional<std::string> draw(const Plot& plot, const std::filesystem::path& png,
-                                const std::string& program = "gnuplot");
+std::optional<std::string> draw(const Plot& plot, const std::filesystem::path& png, const Gnuplot& gnuplot = {});
 
 }  // namespace strandlab::report

@@ -23,21 +23,59 @@ TEST(AtomicFile, ReplacesAndLeavesNoTemporary) {
   EXPECT_EQ(folder.files(), 1U);
 }
 
-TEST(AtomicFile, ReplacesTheTemporaryOfAKilledRun) {
-  const TemporaryFolder folder;
-  test::put(folder / "a.csv.tmp", "half of a much longer file that was being written");
-  write_atomically(folder / "a.csv", "whole");
-  EXPECT_EQ(contents(folder / "a.csv"), "whole");
-  EXPECT_EQ(folder.files(), 1U);
+// Text of the temporary files in a folder.
+std::string temporaries(const TemporaryFolder& folder) {
+  std::string text;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    if (is_temporary(entry.path())) text += contents(entry.path());
+  }
+  return text;
 }
 
 TEST(AtomicFile, IsStillTheOldOneUntilTheRename) {
   const TemporaryFolder folder;
   write_atomically(folder / "a.csv", "old");
   std::string seen;
-  write_atomically(folder / "a.csv", "new",
-                   [&] { seen = contents(folder / "a.csv") + contents(folder / "a.csv.tmp"); });
+  write_atomically(folder / "a.csv", "new", [&] { seen = contents(folder / "a.csv") + temporaries(folder); });
   EXPECT_EQ(seen, "oldnew");
+}
+
+// Each has a temporary file of its own: neither cuts the other's short or takes it away.
+TEST(AtomicFile, IsWrittenTwiceAtTheSameTime) {
+  const TemporaryFolder folder;
+  write_atomically(folder / "a.csv", "slow", [&] {
+    write_atomically(folder / "a.csv", "quick");
+    EXPECT_EQ(contents(folder / "a.csv"), "quick");
+    EXPECT_EQ(temporaries(folder), "slow");
+  });
+  EXPECT_EQ(contents(folder / "a.csv"), "slow");
+  EXPECT_EQ(folder.files(), 1U);
+}
+
+TEST(AtomicFile, ATemporaryFileIsKnownByItsName) {
+  EXPECT_TRUE(is_temporary("run/report.html.4711-2.tmp"));
+  for (const auto* name : {"report.html", "report.html.tmp", "notes-2.tmp", "4711-2.tmp", "a.4711-2.tmp.csv"})
+    EXPECT_FALSE(is_temporary(name)) << name;
+}
+
+TEST(MakeFolder, SaysWhatIsInTheWay) {
+  const TemporaryFolder folder;
+  make_folder(folder / "a/b");
+  make_folder(folder / "a/b");
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "a/b"));
+  test::put(folder / "file", "x");
+  EXPECT_NE(message_of<InputError>([&] { make_folder(folder / "file"); }).find("Not a directory"), std::string::npos);
+  const test::ReadOnly locked(folder.path());
+  EXPECT_NE(message_of<InputError>([&] { make_folder(folder / "c"); }).find("Permission denied"), std::string::npos);
+}
+
+TEST(AtomicFile, ANameThatCannotBeIsBadInput) {
+  const TemporaryFolder folder;
+  EXPECT_NE(message_of<InputError>([&] { write_atomically(folder / std::string(5000, 'x'), "x"); }).find("too long"),
+            std::string::npos);
+  std::filesystem::create_symlink(folder / "loop", folder / "loop");
+  EXPECT_NE(message_of<InputError>([&] { write_atomically(folder / "loop/a.csv", "x"); }).find("loop"),
+            std::string::npos);
 }
 
 TEST(AtomicFile, FailureBeforeTheRenameLeavesTheOldFile) {

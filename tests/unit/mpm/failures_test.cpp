@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kThick = 0.8, kLength = 2.4;  // mm
 
-Body<2> strand_of(double x0, double x1) {
+Strand<2> piece_of(double x0, double x1) {
   mat::Mat mat;
   mat.length_mm = kLength;
   mat.layer_thickness_mm = kThick;
@@ -27,15 +27,19 @@ Body<2> strand_of(double x0, double x1) {
   layer.strands.back().x0_mm = x0;
   layer.strands.back().x1_mm = x1;
   mat.layers.push_back(layer);
-  return body_of(make_panel(mat, {{"surface", wood::library().front(), 0}}, kThick / 6, 6).strands.front());
+  return make_panel(mat, {{"surface", wood::library().front(), 0}}, kThick / 6, 6).strands.front();
 }
 
-Engine<2> engine_of(const std::vector<Body<2>>& bodies) {
+Body<2> strand_of(double x0, double x1) {
+  return body_of(piece_of(x0, x1));
+}
+
+Engine<2> engine_of(const std::vector<Body<2>>& bodies, Side side = Side::kRoller) {
   Grid<2> grid;
   grid.cell = Vec<2>::Constant(kThick / 3);
   grid.origin = grid.lo = Vec<2>::Zero();
   grid.hi = Vec<2>(kLength, kThick);
-  grid.sides[0] = {Side::kRoller, Side::kRoller};
+  grid.sides[0] = {side, side};
   Engine<2> engine(bodies, grid, Options{});
   engine.set_platens({0, 0}, {kThick, 0});
   return engine;
@@ -74,8 +78,42 @@ TEST(Failure, TimeStepThatFallsToNothing) {
 TEST(Failure, ParticleOutsideTheGrid) {
   auto body = strand_of(0, kLength);
   body.x[40][0] = 3 * kLength;
-  expect_says(test::message_of<RunError>([&] { engine_of({body}); }),
-              {"step 0", "particle 40 of surface strand in row 1", "left the grid"});
+  expect_says(failure_of(body), {"step 0", "particle 40 of surface strand in row 1", "left the grid"});
+}
+
+// A strand as long as the mat, pushed out by its whole length: it is beside the mat, not lost. Further off it is.
+TEST(Failure, AFreeSideLetsAWholeStrandGo) {
+  auto strand = piece_of(0, kLength);
+  for (auto& x : strand.x) x[0] += kLength;
+  EXPECT_NO_THROW(engine_of({body_of(strand)}, Side::kFree).step());
+  for (auto& x : strand.x) x[0] += kLength;
+  expect_says(test::message_of<RunError>([&] { engine_of({body_of(strand)}, Side::kFree).step(); }), {"left the grid"});
+}
+
+// A strand in flight reaches the end of the room beside the mat: a run that goes on from a state on the way says so at
+// the same step, in the same words.
+TEST(Failure, ComesAtTheSameStepAfterARestart) {
+  Panel<2> panel;
+  panel.strands.push_back(piece_of(0, kLength));
+  for (auto& x : panel.strands[0].x) x[0] += kLength + 0.3;  // its end is 0.3 mm before the end of the room
+  for (auto& v : panel.strands[0].v) v[0] = 1e5;             // mm/s
+  const auto failure = [](Engine<2>& engine) {
+    return test::message_of<RunError>([&] {
+      while (engine.state().step < 1000) engine.step();
+    });
+  };
+  auto undisturbed = engine_of({body_of(panel.strands[0])}, Side::kFree);
+  const auto message = failure(undisturbed);
+  expect_says(message, {"left the grid"});
+  for (const int stop : {1, 37, 50}) {
+    auto first = engine_of({body_of(panel.strands[0])}, Side::kFree);
+    while (first.state().step < stop) first.step();
+    Panel<2> state = panel;
+    first.write(state);
+    auto second = engine_of({body_of(state.strands[0])}, Side::kFree);
+    second.resume(first.state());
+    EXPECT_EQ(failure(second), message) << "stopped at step " << stop;
+  }
 }
 
 TEST(Failure, ParticleStretchedOutOfProportion) {

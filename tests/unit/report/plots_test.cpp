@@ -89,7 +89,7 @@ TEST(Plots, ReferencesAloneAreNoResult) {
 TEST(Plots, WithoutGnuplotTheRunGoesOnAndSaysSo) {
   const TemporaryFolder folder;
   const Plot plot{"", "", "", "", CurveStyle::kLines, 0, 1, {{"", {0, 1}, {0, 1}}}, {}};
-  const auto warning = draw(plot, folder / "a.png", "no_such_gnuplot");
+  const auto warning = draw(plot, folder / "a.png", {"no_such_gnuplot"});
   ASSERT_TRUE(warning.has_value());
   EXPECT_EQ(*warning,
             "no picture " + (folder / "a.png").string() +
@@ -101,10 +101,35 @@ TEST(Plots, WithoutGnuplotTheRunGoesOnAndSaysSo) {
 TEST(Plots, FailingGnuplotIsReported) {
   const TemporaryFolder folder;
   const Plot plot{"", "", "", "", CurveStyle::kLines, 0, 1, {{"", {0, 1}, {0, 1}}}, {}};
-  const auto warning = draw(plot, folder / "a.png", "false");
+  const auto warning = draw(plot, folder / "a.png", {"false"});
   ASSERT_TRUE(warning.has_value());
   EXPECT_NE(warning->find("false failed"), std::string::npos);
   EXPECT_EQ(folder.files(), 0U);
+}
+
+// A program that never ends, one that hides behind a program of its own, and one that closes its output and goes on.
+TEST(Plots, AGnuplotThatHangsIsEnded) {
+  const TemporaryFolder folder;
+  const Plot plot{"", "", "", "", CurveStyle::kLines, 0, 1, {{"", {0, 1}, {0, 1}}}, {}};
+  for (const auto* what : {"exec sleep 600", "sleep 600; :", "exec >&- 2>&-; sleep 600"}) {
+    const auto program = folder / "hangs";
+    test::put(program, std::string("#!/bin/sh\n") + what + "\n");
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    const auto warning = draw(plot, folder / "a.png", {program.string(), 0.05});
+    ASSERT_TRUE(warning.has_value()) << what;
+    EXPECT_NE(warning->find("was not done after 0.05 s"), std::string::npos) << *warning;
+    EXPECT_EQ(folder.files(), 1U) << what;
+  }
+}
+
+// The script reaches the program by its standard input, whole; what it prints is the picture.
+TEST(Plots, TheScriptIsNoFileThatAnotherRunCouldTake) {
+  const TemporaryFolder folder;
+  std::string script = "plot";
+  script.append(1 << 20, 'x');
+  EXPECT_FALSE(draw_script(script, folder / "a.png", {"cat"}).has_value());
+  EXPECT_EQ(test::contents(folder / "a.png"), script);
+  EXPECT_EQ(folder.files(), 1U);
 }
 
 TEST(Plots, NothingToPlotIsSaid) {
