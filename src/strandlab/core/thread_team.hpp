@@ -14,7 +14,8 @@ namespace strandlab {
 // is left open.
 class ThreadTeam {
  public:
-  explicit ThreadTeam(int threads);  // including the calling thread; at least 1
+  // `threads` includes the calling thread; at least 1. Where the system gives fewer, the team is as large as it gives.
+  explicit ThreadTeam(int threads);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
@@ -30,9 +31,9 @@ class ThreadTeam {
       return;
     }
     const Loop<Task> loop{&task, count, chunk};
-    run((count + chunk - 1) / chunk, &loop, [](const void* data, int number) {
+    run((count - 1) / chunk + 1, &loop, [](const void* data, int number) {
       const auto& l = *static_cast<const Loop<Task>*>(data);
-      const int begin = number * l.chunk, end = begin + l.chunk < l.count ? begin + l.chunk : l.count;
+      const int begin = number * l.chunk, end = l.count - begin > l.chunk ? begin + l.chunk : l.count;
       for (int i = begin; i < end; ++i) (*l.task)(i);
     });
   }
@@ -49,10 +50,10 @@ class ThreadTeam {
   bool claim_and_run();
   void work();
 
-  // Epoch (16 bits), number of chunks (24), next chunk (24) in one word: a claim is valid for the loop it names.
+  // The end of the team (1 bit), number of chunks of the loop (31), next chunk (32): all that a worker waits for is in
+  // this one word (thread_team.cpp).
   std::atomic<std::uint64_t> state_{0};
   std::atomic<int> done_{0};
-  std::atomic<bool> stop_{false};
   const void* loop_ = nullptr;
   Call call_ = nullptr;
   std::vector<std::thread> workers_;
