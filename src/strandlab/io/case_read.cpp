@@ -114,7 +114,7 @@ Source parse_override(const std::string& text) {
   Source source;
   source.name = "--set " + shortened(text);
   if (!is_utf8(text) || text.find('\0') != std::string::npos)
-    throw InputError(fmt::format("{}: holds bytes that are no text in UTF-8", source.name));
+    throw InputError(fmt::format("{}: holds bytes that are no text in UTF-8", printable(source.name)));
   source.folder = fs::current_path();
   const auto equals = text.find('=');
   const bool one_line = text.find_first_of("\n\r") == std::string::npos;
@@ -466,8 +466,8 @@ std::string where_of(const std::vector<Given>& given, const std::string& source,
 void check_kind(const KindSettings& kind, const std::vector<Given>& given, const std::string& source) {
   const auto& s = kind.statistics;
   const auto fail = [&](const char* key, const std::string& message) {
-    throw InputError(
-        fmt::format("{}: kinds.{}.{} {}", where_of(given, source, {"kinds", kind.name, key}), kind.name, key, message));
+    throw InputError(fmt::format("{}: kinds.{}.{} {}", where_of(given, source, {"kinds", kind.name, key}),
+                                 shortened(kind.name), key, message));
   };
   if (s.length_sd_mm > s.length_mm) {
     fail("length_sd_mm",
@@ -497,7 +497,7 @@ void refuse_unused_kinds(const Case& c, const mat::Layup& layup, const std::vect
     if (std::find(names.begin(), names.end(), kind.name) != names.end()) continue;
     const auto near = nearest(kind.name, names);
     throw InputError(fmt::format("{}: [kinds.{}]: no row in mat.rows is of this kind{} Kinds of rows: {}",
-                                 where_of(given, source, {"kinds", kind.name, ""}), kind.name,
+                                 where_of(given, source, {"kinds", kind.name, ""}), shortened(kind.name),
                                  near.empty() ? "." : fmt::format("; did you mean {}?", near), quoted_list(names)));
   }
 }
@@ -509,8 +509,8 @@ void check_case(const Case& c, const std::vector<Given>& given, const std::strin
     try {
       wood::validate(settings.material);
     } catch (const InputError& e) {
-      throw InputError(
-          fmt::format("{}: [materials.{}]: {}", where_of(given, source, {"materials", name, ""}), name, e.what()));
+      throw InputError(fmt::format("{}: [materials.{}]: {}", where_of(given, source, {"materials", name, ""}),
+                                   shortened(name), e.what()));
     }
   }
   for (const auto& kind : strand_kinds(c)) {
@@ -518,7 +518,7 @@ void check_case(const Case& c, const std::vector<Given>& given, const std::strin
       wood::validate(kind.material);
     } catch (const InputError& e) {
       throw InputError(fmt::format("{}: [kinds.{}] with law = \"{}\": {}",
-                                   where_of(given, source, {"kinds", kind.name, "law"}), kind.name,
+                                   where_of(given, source, {"kinds", kind.name, "law"}), shortened(kind.name),
                                    wood::name(kind.material.law), e.what()));
     }
   }

@@ -290,9 +290,9 @@ TEST(CaseRead, ValuesAreShownAsTheyWereMeant) {
   EXPECT_NE(refusal("", {"mat.file=f\xFCr.json"}).find("no text in UTF-8"), std::string::npos);
 }
 
-// A megabyte in, a line out.
+// However much comes in, a line goes out.
 TEST(CaseRead, LongValuesAreShortenedInMessages) {
-  const std::string a_lot(1000000, 'x');
+  const std::string a_lot(100000, 'x');
   for (const auto& text : {"[press]\nspeed_m_s = \"" + a_lot + "\"", "[press]\nsides = \"" + a_lot + "\"",
                            "[press]\n" + a_lot + " = 1", "[" + a_lot + "]\n", "[kinds." + a_lot + "]\n",
                            "[kinds.\" " + a_lot + "\"]\n", "[mat]\nrows = [\"" + a_lot + "\"]",
