@@ -1,16 +1,18 @@
 // strandlab: a virtual laboratory for wood-strand composites.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "git_hash.hpp"
+#include "process.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/core/version.hpp"
@@ -20,7 +22,7 @@ namespace {
 enum Exit { kDone = 0, kBadInput = 2, kFailed = 3 };
 
 int fail(Exit code, const char* what) {
-  fmt::print(stderr, "strandlab: {}\n", what);
+  strandlab::app::tell(STDERR_FILENO, fmt::format("strandlab: {}\n", what));
   return code;
 }
 
@@ -55,8 +57,9 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? kDone : kBadInput;
+    if (app.exit(e) != 0) return kBadInput;
   }
+  strandlab::app::refuse_lost_output();
   return kDone;
 }
 
@@ -64,6 +67,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    strandlab::app::prepare_process();
     return run(argc, argv);
   } catch (const strandlab::InputError& e) {
     return fail(kBadInput, e.what());

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/io/case.hpp"
@@ -149,7 +150,7 @@ void make_movie(const MovieArguments& a) {
   arguments.push_back(film.string());
   run_ffmpeg(arguments, scratch / "ffmpeg.log");
   write_atomically(a.out, read_text(film));
-  fmt::print("movie: {} frames -> {}\n", count, a.out);
+  print("movie: {} frames -> {}\n", count, a.out);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/report/html.hpp"
@@ -31,7 +32,7 @@ void add_report(CLI::App& app) {
   command->add_option("DIR", arguments->folder, "run folder")->required();
   command->add_option("-o,--output", arguments->out, "file to write (default: report.html in the run folder)");
   command->callback(
-      [arguments] { fmt::print("report: {}\n", write_report_page(arguments->folder, arguments->out).string()); });
+      [arguments] { print("report: {}\n", write_report_page(arguments->folder, arguments->out).string()); });
 }
 
 }  // namespace strandlab::app
