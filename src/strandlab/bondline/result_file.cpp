@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/json_text.hpp"
 
 namespace strandlab::bondline {
 namespace {
@@ -95,9 +95,7 @@ std::string to_json(const Analysis& analysis, const std::string& input) {
 }
 
 double group_compliance(const std::filesystem::path& file, const std::string& group) {
-  std::ifstream in(file);
-  if (!in) throw InputError(fmt::format("{}: cannot be read", file.string()));
-  const Json json = Json::parse(in, nullptr, false);
+  const nlohmann::json json = read_json(file, "a result of 'strandlab bondline'");
   const auto not_ours = [&] {
     return InputError(fmt::format("{}: is not a result of 'strandlab bondline'", file.string()));
   };
