@@ -120,7 +120,10 @@ std::vector<StrandKind> kinds_and_materials(const Case& c) {
 }
 
 mat::Mat make_mat(const Case& c) {
-  return c.mat_file.empty() ? mat::form(layup(c), c.seed) : mat::read(c.mat_file, kind_names(c));
+  if (!c.mat_file.empty()) return mat::read(c.mat_file, kind_names(c));
+  const auto rows = layup(c);
+  refuse_too_large(c, rows);
+  return mat::form(rows, c.seed);
 }
 
 Weight weigh(const Case& c, const mat::Mat& mat) {
