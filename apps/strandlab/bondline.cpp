@@ -2,6 +2,7 @@
 // tests.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -12,6 +13,7 @@
 
 #include "bondline_tables.hpp"
 #include "commands.hpp"
+#include "console.hpp"
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/bondline/example.hpp"
 #include "strandlab/bondline/plots.hpp"
@@ -53,41 +55,40 @@ bondline::SpecimenTable read(const Arguments& a) {
 void print_excluded(const bondline::Analysis& analysis) {
   for (const auto& s : analysis.specimens)
     if (!s.excluded.empty())
-      fmt::print("excluded: {} ({}): {}\n", printable(s.specimen.id), printable(s.specimen.source),
-                 printable(s.excluded));
+      print("excluded: {} ({}): {}\n", printable(s.specimen.id), printable(s.specimen.source), printable(s.excluded));
   for (const auto& s : analysis.specimens) {
     if (!s.specimen.slope) continue;
-    for (const auto& flag : s.specimen.slope->flags) fmt::print("flag: {}: {}\n", printable(s.specimen.id), flag);
+    for (const auto& flag : s.specimen.slope->flags) print("flag: {}: {}\n", printable(s.specimen.id), flag);
   }
 }
 
 void print_groups(const bondline::Analysis& analysis) {
-  fmt::print("{:<24}{:>4}{:>10}{:>12}{:>11}{:>12}{:>12}{:>10}{:>14}\n", "group", "n", "excluded", "1/D_t", "sd",
-             "95 % low", "95 % high", "p(0)", "from mean k");
+  print("{:<24}{:>4}{:>10}{:>12}{:>11}{:>12}{:>12}{:>10}{:>14}\n", "group", "n", "excluded", "1/D_t", "sd", "95 % low",
+        "95 % high", "p(0)", "from mean k");
   for (const auto& g : analysis.groups) {
     const auto& c = g.compliance_t;
-    fmt::print("{:<24}{:>4}{:>10}{:>12.5f}{:>11.5f}{:>12.5f}{:>12.5f}{:>10.3g}{:>14}\n", printable(g.name), c.n,
-               g.excluded, c.mean, c.sd, c.low, c.high, c.p,
-               g.compliance_of_mean ? fmt::format("{:.5f}", *g.compliance_of_mean) : "none");
+    print("{:<24}{:>4}{:>10}{:>12.5f}{:>11.5f}{:>12.5f}{:>12.5f}{:>10.3g}{:>14}\n", printable(g.name), c.n, g.excluded,
+          c.mean, c.sd, c.low, c.high, c.p,
+          g.compliance_of_mean ? fmt::format("{:.5f}", *g.compliance_of_mean) : "none");
   }
-  fmt::print("1/D_t in mm/MPa; interval: Student's t; p(0): one-sample t-test of 1/D_t = 0\n");
+  print("1/D_t in mm/MPa; interval: Student's t; p(0): one-sample t-test of 1/D_t = 0\n");
 }
 
 void print_comparisons(const bondline::Analysis& analysis) {
   for (const auto& family : analysis.families) {
     const std::string within = family.name.empty() ? "" : printable(family.name) + ": ";
-    if (!family.note.empty()) fmt::print("{}{}\n", within, family.note);
+    if (!family.note.empty()) print("{}{}\n", within, family.note);
     if (!family.anova) continue;
-    fmt::print(
+    print(
         "{}one-way ANOVA F({}, {}) = {:.4g}, p = {:.3g}; without equal variances (Welch) F({:g}, {:.1f}) = {:.4g}, p = "
         "{:.3g}\n",
         within, family.anova->df_between, family.anova->df_within, family.anova->F, family.anova->p,
         family.welch->df_between, family.welch->df_within, family.welch->F, family.welch->p);
     for (const auto& pair : family.pairs)
-      fmt::print("  {} - {}: {:.5f} mm/MPa, t = {:.3g}, p = {:.3g}\n",
-                 printable(analysis.groups[family.groups[pair.first]].name),
-                 printable(analysis.groups[family.groups[pair.second]].name), pair.difference, pair.t, pair.p_holm);
-    fmt::print("  pairs: Welch's t-test, p corrected by Holm's method\n");
+      print("  {} - {}: {:.5f} mm/MPa, t = {:.3g}, p = {:.3g}\n",
+            printable(analysis.groups[family.groups[pair.first]].name),
+            printable(analysis.groups[family.groups[pair.second]].name), pair.difference, pair.t, pair.p_holm);
+    print("  pairs: Welch's t-test, p corrected by Holm's method\n");
   }
 }
 
@@ -96,7 +97,7 @@ int draw(const std::vector<bondline::Picture>& pictures, const fs::path& folder)
   int drawn = 0;
   for (const auto& picture : pictures) {
     if (const auto problem = report::draw_script(picture.script, folder / picture.file_name)) {
-      fmt::print(stderr, "strandlab: {}\n", *problem);
+      tell(STDERR_FILENO, fmt::format("strandlab: {}\n", *problem));
       return drawn;
     }
     ++drawn;
@@ -113,8 +114,8 @@ void write_results(const Arguments& a, const bondline::Analysis& analysis, const
   const fs::path json = folder / (input.stem().string() + ".json");
   write_atomically(json, bondline::to_json(analysis, input.filename().string()));
   const int plots = draw(bondline::pictures(analysis), folder);
-  fmt::print("written: {}: specimens.csv, groups.csv, comparisons.csv, {}, {} plots\n", printable(folder.string()),
-             printable(json.filename().string()), plots);
+  print("written: {}: specimens.csv, groups.csv, comparisons.csv, {}, {} plots\n", printable(folder.string()),
+        printable(json.filename().string()), plots);
 }
 
 void analyse(const Arguments& a) {
@@ -142,21 +143,21 @@ void design(const Arguments& a) {
   if (const auto wrong = bondline::fault(a.geometry); !wrong.empty()) throw InputError(wrong);
   const auto formula = bondline::formula_from_name(a.formula);
   const auto& u = a.uncertainty;
-  fmt::print("overlap that measures 1/D_t best, for errors of k {:g} %, E {:g} %, t {:g} %, overlap {:g} mm\n",
-             100 * u.k_relative, 100 * u.E_relative, 100 * u.t_relative, u.l_mm);
-  fmt::print("{:>14}{:>14}{:>22}{:>18}{:>22}{:>12}\n", "1/D_t mm/MPa", "overlap mm", "10 % worse at mm",
-             "error of 1/D_t %", "d ln k/d ln(1/D_t)", "k N/mm");
+  print("overlap that measures 1/D_t best, for errors of k {:g} %, E {:g} %, t {:g} %, overlap {:g} mm\n",
+        100 * u.k_relative, 100 * u.E_relative, 100 * u.t_relative, u.l_mm);
+  print("{:>14}{:>14}{:>22}{:>18}{:>22}{:>12}\n", "1/D_t mm/MPa", "overlap mm", "10 % worse at mm", "error of 1/D_t %",
+        "d ln k/d ln(1/D_t)", "k N/mm");
   for (double compliance : a.compliances) {
     const auto best = bondline::best_overlap(a.geometry, compliance, u, a.overlaps[0], a.overlaps[1], formula);
-    fmt::print("{:>14g}{:>14.1f}{:>22}{:>18.1f}{:>22.3f}{:>12.0f}\n", compliance, best.overlap_mm,
-               fmt::format("{:.1f} to {:.1f}", best.shortest_mm, best.longest_mm), 100 * best.relative_uncertainty,
-               best.sensitivity, best.stiffness_N_per_mm);
+    print("{:>14g}{:>14.1f}{:>22}{:>18.1f}{:>22.3f}{:>12.0f}\n", compliance, best.overlap_mm,
+          fmt::format("{:.1f} to {:.1f}", best.shortest_mm, best.longest_mm), 100 * best.relative_uncertainty,
+          best.sensitivity, best.stiffness_N_per_mm);
   }
 }
 
 void bond_lines(const Arguments& a) {
   if (a.example) {
-    fmt::print("{}", bondline::example_table(a.seed));
+    print("{}", bondline::example_table(a.seed));
   } else if (a.design) {
     design(a);
   } else if (a.file.empty()) {

@@ -7,6 +7,7 @@
 #include "case_arguments.hpp"
 #include "commands.hpp"
 #include "composition.hpp"
+#include "console.hpp"
 #include "duration.hpp"
 #include "strandlab/io/case_estimate.hpp"
 #include "strandlab/io/case_write.hpp"
@@ -22,17 +23,17 @@ void check(const CaseArguments& arguments) {
   const auto panel = io::make_panel(c, mat);
   vtest::check(panel, c.test);
   const auto e = io::estimate(c, panel);
-  fmt::print("{}\n", io::resolved_text(c));
-  fmt::print("# mat: {} rows, {} strands, {:g} x {:g} mm\n", mat.layers.size(), e.strands, mat.length_mm,
-             mat.thickness_mm());
-  for (const auto& line : composition(io::weigh(c, mat))) fmt::print("# {}\n", line);
-  for (const auto& line : io::derived_constants(c)) fmt::print("# {}\n", line);
-  fmt::print("# particles: {}\n# cells: {} of {:.4g} x {:.4g} mm\n", e.particles, e.cells, e.cell_length_mm,
-             e.cell_height_mm);
-  fmt::print("# steps: {:.0f} of {:.3g} s, {:.3g} ms of pressing\n", e.steps, e.time_step_s, 1e3 * e.pressing_time_s);
-  fmt::print("# memory: {:.0f} MB\n# disk: {:.0f} MB\n", e.memory_bytes / 1e6, e.disk_bytes / 1e6);
-  fmt::print("# estimated run time on {} thread(s): {} pressing, {} tests\n", io::thread_count(c), duration(e.press_s),
-             duration(e.test_s));
+  print("{}\n", io::resolved_text(c));
+  print("# mat: {} rows, {} strands, {:g} x {:g} mm\n", mat.layers.size(), e.strands, mat.length_mm,
+        mat.thickness_mm());
+  for (const auto& line : composition(io::weigh(c, mat))) print("# {}\n", line);
+  for (const auto& line : io::derived_constants(c)) print("# {}\n", line);
+  print("# particles: {}\n# cells: {} of {:.4g} x {:.4g} mm\n", e.particles, e.cells, e.cell_length_mm,
+        e.cell_height_mm);
+  print("# steps: {:.0f} of {:.3g} s, {:.3g} ms of pressing\n", e.steps, e.time_step_s, 1e3 * e.pressing_time_s);
+  print("# memory: {:.0f} MB\n# disk: {:.0f} MB\n", e.memory_bytes / 1e6, e.disk_bytes / 1e6);
+  print("# estimated run time on {} thread(s): {} pressing, {} tests\n", io::thread_count(c), duration(e.press_s),
+        duration(e.test_s));
 }
 
 }  // namespace

@@ -5,12 +5,31 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <system_error>
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
 
 namespace strandlab::app {
+
+void refuse_lost_output() {
+  errno = 0;
+  const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  if (!lost) return;
+  const auto why = errno != 0 ? std::generic_category().message(errno) : "an earlier part was lost";
+  throw RunError(fmt::format("cannot write all of the result to standard output: {}", why));
+}
+
+void tell(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t n = ::write(descriptor, text.data(), text.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return;
+    text.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
 
 Console::Console() : terminal_(::isatty(STDOUT_FILENO) == 1), last_plain_line_(std::chrono::steady_clock::now()) {}
 
@@ -30,21 +49,19 @@ void Console::log_to(const std::filesystem::path& file) {
 }
 
 void Console::clear_progress() {
-  if (line_open_) fmt::print("\r\x1b[K");
-  std::fflush(stdout);
+  if (line_open_) tell(STDOUT_FILENO, "\r\x1b[K");
   line_open_ = false;
 }
 
 void Console::say(const std::string& line) {
   clear_progress();
-  fmt::print("{}\n", printable(line));
-  std::fflush(stdout);
+  tell(STDOUT_FILENO, printable(line) + "\n");
   if (log_) log_->info(printable(line));
 }
 
 void Console::warn(const std::string& line) {
   clear_progress();
-  fmt::print(stderr, "warning: {}\n", printable(line));
+  tell(STDERR_FILENO, fmt::format("warning: {}\n", printable(line)));
   if (log_) log_->warn(printable(line));
 }
 
@@ -56,15 +73,13 @@ void Console::log_error(const std::string& line) {
 void Console::progress(const std::string& line) {
   using namespace std::chrono_literals;
   if (terminal_) {
-    fmt::print("\r\x1b[K{}", line);
-    std::fflush(stdout);
+    tell(STDOUT_FILENO, "\r\x1b[K" + line);
     line_open_ = true;
   }
   const auto now = std::chrono::steady_clock::now();
   if (now - last_plain_line_ < 10s) return;
   last_plain_line_ = now;
-  if (!terminal_) fmt::print("{}\n", line);
-  std::fflush(stdout);
+  if (!terminal_) tell(STDOUT_FILENO, line + "\n");
   if (log_) log_->info(line);
 }
 

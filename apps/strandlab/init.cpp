@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/io/case.hpp"
 #include "strandlab/io/case_write.hpp"
@@ -19,11 +20,11 @@ struct Arguments {
 
 void init(const Arguments& arguments) {
   if (arguments.reference) {
-    fmt::print("{}", io::reference_text());
+    print("{}", io::reference_text());
     return;
   }
   const auto c = io::ready_case(arguments.name);
-  fmt::print("{}", io::commented_text(c, io::ready_case_title(arguments.name)));
+  print("{}", io::commented_text(c, io::ready_case_title(arguments.name)));
 }
 
 }  // namespace

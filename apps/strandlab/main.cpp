@@ -1,17 +1,19 @@
 // strandlab: a virtual laboratory for wood-strand composites.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstddef>
-#include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "git_hash.hpp"
+#include "process.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/core/text.hpp"
@@ -29,7 +31,7 @@ std::string shown(const std::string& what) {
 }
 
 int fail(Exit code, const char* what) {
-  fmt::print(stderr, "strandlab: {}\n", shown(what));
+  strandlab::app::tell(STDERR_FILENO, fmt::format("strandlab: {}\n", shown(what)));
   return code;
 }
 
@@ -67,8 +69,9 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? kDone : kBadInput;
+    if (app.exit(e) != 0) return kBadInput;
   }
+  strandlab::app::refuse_lost_output();
   return kDone;
 }
 
@@ -76,6 +79,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    strandlab::app::prepare_process();
     return run(argc, argv);
   } catch (const strandlab::InputError& e) {
     return fail(kBadInput, e.what());

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
@@ -150,7 +151,7 @@ void make_movie(const MovieArguments& a) {
   arguments.push_back(film.string());
   run_ffmpeg(arguments, scratch / "ffmpeg.log");
   write_atomically(a.out, read_text(film));
-  fmt::print("movie: {} frames -> {}\n", count, printable(a.out));
+  print("movie: {} frames -> {}\n", count, printable(a.out));
 }
 
 }  // namespace

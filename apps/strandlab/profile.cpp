@@ -2,6 +2,7 @@
 #include "strandlab/profile/profile.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "profile_bins.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
@@ -137,19 +139,19 @@ std::vector<profile::Mean> means_of(const std::vector<report::Replicate>& replic
 }
 
 void print_means(const std::vector<profile::Mean>& means) {
-  fmt::print("{:>11}{:>11}{:>10}{:>10}{:>13}{:>10}{:>10}{:>10}{:>14}\n", "compaction", "replicates", "mean", "peak",
-             "its depth mm", "skin", "surface", "core", "surface/core");
+  print("{:>11}{:>11}{:>10}{:>10}{:>13}{:>10}{:>10}{:>10}{:>14}\n", "compaction", "replicates", "mean", "peak",
+        "its depth mm", "skin", "surface", "core", "surface/core");
   for (const auto& mean : means) {
     const auto s = profile::summarise(mean.profile());
-    fmt::print("{:>11.4g}{:>11}{:>10.1f}{:>10.1f}{:>13.3f}{:>10.1f}{:>10.1f}{:>10.1f}{:>14.3f}\n", mean.compaction,
-               mean.density_kg_m3.front().n, s.mean, s.peak, s.peak_depth_mm, s.skin, s.surface, s.core,
-               s.surface_over_core());
+    print("{:>11.4g}{:>11}{:>10.1f}{:>10.1f}{:>13.3f}{:>10.1f}{:>10.1f}{:>10.1f}{:>14.3f}\n", mean.compaction,
+          mean.density_kg_m3.front().n, s.mean, s.peak, s.peak_depth_mm, s.skin, s.surface, s.core,
+          s.surface_over_core());
   }
-  fmt::print("densities in kg/m3, of the mean profile\n");
+  print("densities in kg/m3, of the mean profile\n");
 }
 
 void warn(const std::optional<std::string>& warning) {
-  if (warning) fmt::print(stderr, "strandlab: {}\n", printable(*warning));
+  if (warning) tell(STDERR_FILENO, fmt::format("strandlab: {}\n", printable(*warning)));
 }
 
 // ---- Measured profiles ---------------------------------------------------------------------------------------------
@@ -197,7 +199,7 @@ std::optional<Comparison> compare(const Arguments& a, const std::vector<profile:
 }
 
 void write(const Comparison& c, const std::vector<profile::Mean>& means, const fs::path& folder) {
-  fmt::print(
+  print(
       "measured: {} specimen(s), {:.2f} mm thick, mean {:.1f} kg/m3; simulated at compaction {:.4g} ({:.2f} mm): rms "
       "difference {:.1f} kg/m3\n",
       c.specimens.size(), c.measured.thickness_mm, profile::mean_between(c.measured.profile(), 0, 1),
@@ -235,7 +237,7 @@ void profile_runs(const Arguments& a) {
   warn(report::plot_mean_profiles(means, folder / "profile.png"));
   warn(report::plot_profile_summaries(means, folder / "against_compaction.png"));
   if (comparison) write(*comparison, means, folder);
-  fmt::print("written: {}\n", printable(folder.string()));
+  print("written: {}\n", printable(folder.string()));
 }
 
 void add_measured_options(CLI::App& command, Arguments& a) {

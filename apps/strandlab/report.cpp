@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
@@ -31,9 +32,8 @@ void add_report(CLI::App& app) {
   auto* command = app.add_subcommand("report", "make report.html of a run folder again");
   command->add_option("DIR", arguments->folder, "run folder")->required();
   command->add_option("-o,--output", arguments->out, "file to write (default: report.html in the run folder)");
-  command->callback([arguments] {
-    fmt::print("report: {}\n", printable(write_report_page(arguments->folder, arguments->out).string()));
-  });
+  command->callback(
+      [arguments] { print("report: {}\n", printable(write_report_page(arguments->folder, arguments->out).string())); });
 }
 
 }  // namespace strandlab::app

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <exception>
 #include <memory>
 
 #include "commands.hpp"
 #include "journey.hpp"
 #include "report.hpp"
-#include "strandlab/core/error.hpp"
 
 namespace strandlab::app {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 void do_report(Journey& journey, Console& console) {
   try {
     console.say(fmt::format("report: {}", write_report_page(journey.folder.path()).string()));
-  } catch (const InputError& e) {
+  } catch (const std::exception& e) {
     console.warn(fmt::format("no report.html: {}", e.what()));
   }
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/io/case.hpp"
 #include "strandlab/io/csv.hpp"
@@ -50,14 +51,14 @@ io::CsvTable table_of(const std::vector<theory::Estimate>& estimates) {
 }
 
 void print(const theory::Question& q, const std::vector<theory::Estimate>& estimates) {
-  fmt::print("{:<30}{:>6}{:>14}{:>14}{:>12}{:>9}{:>14}\n", "model", "C", "density kg/m3", "1/D_t mm/MPa", "length mm",
+  app::print("{:<30}{:>6}{:>14}{:>14}{:>12}{:>9}{:>14}\n", "model", "C", "density kg/m3", "1/D_t mm/MPa", "length mm",
              "gap mm", "modulus MPa");
   for (const auto& e : estimates)
-    fmt::print("{:<30}{:>6.3g}{:>14.0f}{:>14}{:>12g}{:>9g}{:>14.0f}\n", e.model, e.compaction, e.density_kg_m3,
+    app::print("{:<30}{:>6.3g}{:>14.0f}{:>14}{:>12g}{:>9g}{:>14.0f}\n", e.model, e.compaction, e.density_kg_m3,
                e.compliance_t ? fmt::format("{:g}", *e.compliance_t) : "", e.length_mm, e.gap_mm, e.modulus_MPa);
   const auto core = std::find_if_not(q.rows.begin(), q.rows.end(), theory::runs_along);
   if (core != q.rows.end())
-    fmt::print(
+    app::print(
         "random core of {}: quasi-isotropic laminate {:.0f}, mean over angles {:.0f}, the same in plane strain {:.0f} "
         "MPa\n",
         core->material.name, theory::quasi_isotropic_modulus_MPa(core->material),
@@ -65,7 +66,7 @@ void print(const theory::Question& q, const std::vector<theory::Estimate>& estim
   for (const auto& model : theory::models()) {
     const bool used =
         std::any_of(estimates.begin(), estimates.end(), [&](const auto& e) { return e.model == model.name; });
-    if (used) fmt::print("{}: {}\n", model.name, model.validity);
+    if (used) app::print("{}: {}\n", model.name, model.validity);
   }
 }
 
@@ -73,7 +74,7 @@ void estimate(const Arguments& a) {
   const auto q = question_of(a);
   const auto estimates = theory::estimate(q);
   if (a.csv == "-") {
-    fmt::print("{}", table_of(estimates).text());
+    app::print("{}", table_of(estimates).text());
     return;
   }
   print(q, estimates);

@@ -1,14 +1,11 @@
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <system_error>
 
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/json_text.hpp"
 #include "strandlab/core/text.hpp"
 
 namespace strandlab::bondline {
@@ -98,13 +95,7 @@ std::string to_json(const Analysis& analysis, const std::string& input) {
 }
 
 double group_compliance(const std::filesystem::path& file, const std::string& group) {
-  std::ifstream in(file);
-  if (!in)
-    throw InputError(fmt::format("{}: cannot be read: {}", file.string(), std::generic_category().message(errno)));
-  std::ostringstream text;
-  text << in.rdbuf();
-  refuse_other_than_utf8(text.str(), file.string());
-  const Json json = Json::parse(text.str(), nullptr, false);
+  const nlohmann::json json = read_json(file, "a result of 'strandlab bondline'");
   const auto not_ours = [&] {
     return InputError(fmt::format("{}: is not a result of 'strandlab bondline'", file.string()));
   };

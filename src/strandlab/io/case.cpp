@@ -124,7 +124,10 @@ std::vector<StrandKind> kinds_and_materials(const Case& c) {
 mat::Mat make_mat(const Case& c) {
   const auto& place = c.mat_file.empty() ? c.places.rows : c.places.mat_file;
   try {
-    return c.mat_file.empty() ? mat::form(layup(c), c.seed) : mat::read(c.mat_file, kind_names(c));
+    if (!c.mat_file.empty()) return mat::read(c.mat_file, kind_names(c));
+    const auto rows = layup(c);
+    refuse_too_large(c, rows);
+    return mat::form(rows, c.seed);
   } catch (const InputError& e) {
     if (place.empty()) throw;
     throw InputError(fmt::format("{}: {}", place, e.what()));

@@ -85,7 +85,8 @@ std::vector<StrandKind> strand_kinds(const Case& c);
 // The same and a kind for each of the case's materials: a strand of a mat file may name any of them, also one that no
 // kind uses.
 std::vector<StrandKind> kinds_and_materials(const Case& c);
-// The mat of a case: read from its mat file, else formed with its seed. Throws InputError for a bad mat file.
+// The mat of a case: read from its mat file, else formed with its seed. Throws InputError for a bad mat file, and for
+// rows that would make a panel beyond the memory that is free.
 mat::Mat make_mat(const Case& c);
 // Its weight and what it is made of.
 Weight weigh(const Case& c, const mat::Mat& mat);
@@ -93,7 +94,7 @@ Weight weigh(const Case& c, const mat::Mat& mat);
 // the ratios are from; or of which only E_L was changed: which constants did not follow it.
 std::vector<std::string> derived_constants(const Case& c);
 // The panel before pressing, with the material points of the case's grid. Throws InputError when it does not fit into
-// the memory of this machine.
+// the memory that is free.
 Panel<2> make_panel(const Case& c, const mat::Mat& mat);
 
 }  // namespace strandlab::io

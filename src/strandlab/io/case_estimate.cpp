@@ -1,7 +1,6 @@
 #include "strandlab/io/case_estimate.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <thread>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/free_memory.hpp"
 
 namespace strandlab::io {
 namespace {
@@ -17,6 +17,7 @@ namespace {
 constexpr double kNsPerParticleStep = 80;         // one thread, mean over a pressing to 40 %
 constexpr double kSpeedUpPerThread = 0.7;         // of each further thread
 constexpr double kBytesPerParticle = 700;         // of a pressing, grid included
+constexpr double kBytesPerStrand = 2000;          // in the mat, its text, the panel and the engine
 constexpr double kStoredBytesPerParticle = 600;   // of one state: HDF5 and ParaView
 constexpr double kFrameBytes = 5e7;               // all frames of the pressing: 41 coarse panels of 8000 cells
 constexpr double kSolveSecondsPerElement = 4e-6;  // of a virtual test, per factorisation and element
@@ -25,6 +26,16 @@ constexpr double kElementsAtReference = 1e5;
 
 double memory_bytes(double particles) {
   return particles * kBytesPerParticle + 5e7;
+}
+
+void refuse_too_large(double length_mm, double strands, double particles) {
+  const double needed = memory_bytes(particles) + strands * kBytesPerStrand, free = free_memory_bytes();
+  if (needed < free) return;
+  throw InputError(
+      fmt::format("the panel of {} mm would have {:.3g} strands and {:.3g} particles and need {:.3g} MB of memory, of "
+                  "which {:.3g} MB are free; shorten mat.length_mm, lower grid.cells_through_strand or lengthen the "
+                  "strands",
+                  length_mm, strands, particles, needed / 1e6, free / 1e6));
 }
 
 // Shortest time (s) in which a wave passes a cell, over all strands and both axes.
@@ -67,13 +78,28 @@ double particle_count(const Case& c, const mat::Mat& mat) {
 }
 
 void refuse_too_large(const Case& c, const mat::Mat& mat) {
-  const double particles = particle_count(c, mat), needed = memory_bytes(particles);
-  const double machine = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
-  if (needed < machine) return;
-  throw InputError(
-      fmt::format("the panel of {} mm would have {:.3g} particles and need {:.3g} MB of memory, this machine has "
-                  "{:.3g} MB; shorten mat.length_mm or lower grid.cells_through_strand",
-                  mat.length_mm, particles, needed / 1e6, machine / 1e6));
+  double strands = 0;
+  for (const auto& layer : mat.layers) strands += static_cast<double>(layer.strands.size());
+  refuse_too_large(mat.length_mm, strands, particle_count(c, mat));
+}
+
+void refuse_too_large(const Case& c, const mat::Layup& layup) {
+  double thinnest = std::numeric_limits<double>::infinity();
+  for (const auto& row : layup.rows) thinnest = std::min(thinnest, row.thickness_mm.value_or(layup.layer_thickness_mm));
+  const int through = c.grid.cells_through_strand * kPointsPerCell;
+  const double spacing = thinnest / through * c.grid.cell_aspect;
+  double strands = 0, particles = 0;
+  for (const auto& row : layup.rows) {
+    const auto& s = row.statistics;
+    const double cycle = s.length_mm + s.gap_mm;
+    const bool filled = !(s.length_mm > 0);
+    const double thickness = row.thickness_mm.value_or(layup.layer_thickness_mm);
+    strands += filled ? 1 : layup.length_mm / cycle;
+    particles +=
+        mat::through(thickness, thinnest, through) * layup.length_mm / spacing * (filled ? 1 : s.length_mm / cycle);
+  }
+  // Half of it, so that a mat is judged by itself wherever chance could decide.
+  refuse_too_large(layup.length_mm, strands / 2, particles / 2);
 }
 
 int thread_count(const Case& c) {

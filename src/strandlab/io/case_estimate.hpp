@@ -27,8 +27,11 @@ Estimate estimate(const Case& c, const Panel<2>& panel);
 
 // Material points of the panel that make_panel() would make of this mat.
 double particle_count(const Case& c, const mat::Mat& mat);
-// Throws InputError when pressing the mat needs more memory than this machine has.
+// Throws InputError when pressing the mat needs more memory than is free (core/free_memory.hpp).
 void refuse_too_large(const Case& c, const mat::Mat& mat);
+// The same before a mat is formed, from the means of its rows: throws InputError when half of what they make of it
+// would not fit, so that no such mat is formed at all.
+void refuse_too_large(const Case& c, const mat::Layup& layup);
 
 // Threads of a run: what the case says, or one per core of this machine.
 int thread_count(const Case& c);

@@ -218,7 +218,8 @@ std::string Writer::finish() {
   return std::move(*image_);
 }
 
-Reader::Reader(std::filesystem::path file) : path_(std::move(file)), image_(read_whole(path_)), file_(-1, H5Fclose) {
+Reader::Reader(std::filesystem::path file)
+    : path_(std::move(file)), image_(read_whole(path_)), bytes_(image_.size()), file_(-1, H5Fclose) {
   if (image_.empty()) fail("the file is empty");
   if (!std::string_view(image_).starts_with(kSignature)) fail("this is not an HDF5 file");
   const Id access = memory_access();
@@ -245,6 +246,7 @@ std::string Reader::text_attribute(const char* name) const {
       H5Sget_simple_extent_npoints(space) != 1) {
     fail(fmt::format("attribute \"{}\" is not a text of fixed length", name));
   }
+  if (H5Tget_size(stored) > bytes_) fail(fmt::format("attribute \"{}\" is longer than the file", name));
   std::string value(H5Tget_size(stored), '\0');
   if (H5Aread(attribute, stored, value.data()) < 0) {
     fail(fmt::format("attribute \"{}\" is damaged ({})", name, innermost_error()));
@@ -274,57 +276,76 @@ Id Reader::open_dataset(const std::string& path) const {
   return dataset;
 }
 
-Shape Reader::shape_of(hid_t dataset) const {
+// Extents are a claim: they are held against the bytes that the dataset has (our files are not compressed) and that the
+// file has, extent by extent, before anyone multiplies or allocates them.
+Shape Reader::shape_of(hid_t dataset, const std::string& path) const {
   const Id space(H5Dget_space(dataset), H5Sclose);
+  const Id stored(H5Dget_type(dataset), H5Tclose);
   const int rank = space.valid() ? H5Sget_simple_extent_ndims(space) : -1;
-  if (rank < 0) fail(fmt::format("a dataset has no extent ({})", innermost_error()));
+  if (rank < 0 || !stored.valid()) fail(fmt::format("dataset {} has no extent ({})", path, innermost_error()));
   Shape shape(static_cast<std::size_t>(rank));
   H5Sget_simple_extent_dims(space, shape.data(), nullptr);
+  if (!shape.empty() && shape[0] == 0) return shape;  // an empty list
+  const hsize_t there = std::min<hsize_t>(H5Dget_storage_size(dataset), bytes_);
+  hsize_t room = there / std::max<hsize_t>(H5Tget_size(stored), 1);
+  for (const auto extent : shape) {
+    if (extent == 0 || extent > room) {
+      fail(fmt::format("dataset {} claims {} values, but only {} bytes are stored", path, fmt::join(shape, " x "),
+                       there));
+    }
+    room /= extent;
+  }
   return shape;
 }
 
 hsize_t Reader::length(const std::string& path) const {
-  const Shape shape = shape_of(open_dataset(path));
+  const Shape shape = shape_of(open_dataset(path), path);
   if (shape.empty()) fail(fmt::format("dataset {} is a single value, expected a list", path));
   return shape[0];
 }
 
-void Reader::read_raw(const std::string& path, const Shape& shape, H5T_class_t type_class, hid_t type,
-                      void* values) const {
-  const Id dataset = open_dataset(path);
+// The dataset, which has this shape and type: an array for its values may be allocated.
+Id Reader::open_dataset(const std::string& path, const Shape& shape, H5T_class_t type_class) const {
+  Id dataset = open_dataset(path);
   const Id stored(H5Dget_type(dataset), H5Tclose);
   if (H5Tget_class(stored) != type_class) fail(fmt::format("dataset {} has values of another type", path));
-  const Shape found = shape_of(dataset);
+  const Shape found = shape_of(dataset, path);
   if (found != shape) {
     fail(fmt::format("dataset {} has {} values, expected {}", path, fmt::join(found, " x "), fmt::join(shape, " x ")));
   }
-  if (product(shape) == 0) return;
+  return dataset;
+}
+
+void Reader::read_raw(hid_t dataset, const std::string& path, hid_t type, std::size_t count, void* values) const {
+  if (count == 0) return;
   if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) {
     fail(fmt::format("dataset {} is damaged ({})", path, innermost_error()));
   }
 }
 
 std::vector<double> Reader::doubles(const std::string& path, const Shape& shape) const {
+  const Id dataset = open_dataset(path, shape, H5T_FLOAT);
   std::vector<double> values(product(shape));
-  read_raw(path, shape, H5T_FLOAT, H5T_NATIVE_DOUBLE, values.data());
+  read_raw(dataset, path, H5T_NATIVE_DOUBLE, values.size(), values.data());
   return values;
 }
 
 std::vector<std::int64_t> Reader::integers(const std::string& path, const Shape& shape) const {
+  const Id dataset = open_dataset(path, shape, H5T_INTEGER);
   std::vector<std::int64_t> values(product(shape));
-  read_raw(path, shape, H5T_INTEGER, H5T_NATIVE_INT64, values.data());
+  read_raw(dataset, path, H5T_NATIVE_INT64, values.size(), values.data());
   return values;
 }
 
 std::vector<std::string> Reader::texts(const std::string& path, hsize_t count) const {
-  const Id dataset = open_dataset(path);
+  const Id dataset = open_dataset(path, {count}, H5T_STRING);
   const Id stored(H5Dget_type(dataset), H5Tclose);
-  if (H5Tget_class(stored) != H5T_STRING || H5Tis_variable_str(stored) > 0) {
+  if (H5Tis_variable_str(stored) > 0) {
     fail(fmt::format("dataset {} has values of another type", path));
   }
   const std::size_t length = H5Tget_size(stored);
   std::string padded(length * count, '\0');
-  read_raw(path, {count}, H5T_STRING, stored, padded.data());
+  read_raw(dataset, path, stored, count, padded.data());
   std::vector<std::string> values;
   for (hsize_t i = 0; i < count; ++i) {
     const std::string_view cell(padded.data() + i * length, length);

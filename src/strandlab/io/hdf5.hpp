@@ -95,11 +95,13 @@ class Reader {
 
  private:
   Id open_dataset(const std::string& path) const;
-  Shape shape_of(hid_t dataset) const;
-  void read_raw(const std::string& path, const Shape& shape, H5T_class_t type_class, hid_t type, void* values) const;
+  Shape shape_of(hid_t dataset, const std::string& path) const;  // no more values than are stored
+  Id open_dataset(const std::string& path, const Shape& shape, H5T_class_t type_class) const;
+  void read_raw(hid_t dataset, const std::string& path, hid_t type, std::size_t count, void* values) const;
   SilentErrors silent_;
   std::filesystem::path path_;
   std::string image_;
+  hsize_t bytes_;  // of the file
   Id file_;
 };
 

@@ -9,11 +9,11 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <utility>
 
 #include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/json_text.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/core/version.hpp"
 
@@ -91,9 +91,7 @@ int lock_folder(const fs::path& folder) {
 }
 
 Json read_record(const fs::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError(fmt::format("{}: cannot be read", file.string()));
-  auto record = Json::parse(stream, nullptr, false);
+  auto record = read_json(file, "the record of a strandlab run");
   const bool ours = record.is_object() && record.contains("strandlab") && record.contains("case") &&
                     record["case"].is_array() && record.contains("steps") && record["steps"].is_object();
   if (!ours)

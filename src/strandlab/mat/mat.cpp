@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <system_error>
 
 #include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/json_text.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/core/text.hpp"
 
@@ -126,44 +123,6 @@ Mat mat_from(const Json& json, const std::string& source) {
   for (std::size_t i = 0; i < layers.size(); ++i) mat.layers.push_back(layer_from(layers[i], at_layer(source, i)));
   mat.extra = others(json, kMatKeys);
   return mat;
-}
-
-std::string file_text(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) reject(file.string(), "is a folder, not a mat file");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    const auto reason = std::generic_category().message(errno);
-    reject(file.string(), fmt::format("cannot be read as a mat file: {}", reason));
-  }
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-// The parser's message from the point where it says what is wrong; it opens with its own name and the place.
-std::string parser_reason(const std::string& message) {
-  const auto column = message.find("column ");
-  const auto colon = message.find(": ", column == std::string::npos ? 0 : column);
-  if (column != std::string::npos && colon != std::string::npos) return message.substr(colon + 2);
-  const auto bracket = message.find("] ");
-  return bracket == std::string::npos ? message : message.substr(bracket + 2);
-}
-
-Json parse(const std::string& content, const std::string& source) {
-  refuse_other_than_utf8(content, source);
-  try {
-    return Json::parse(content);
-  } catch (const Json::parse_error& error) {
-    const auto end = content.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, content.size()));
-    const auto line = 1 + std::count(content.begin(), end, '\n');
-    const auto reason = parser_reason(error.what());
-    // The number before a comma is whole, and a second one follows where a name belongs.
-    const bool comma = reason.find("unexpected number literal; expected string literal") != std::string::npos;
-    reject(fmt::format("{}: line {}", source, line),
-           fmt::format("not valid JSON: {}{}", shortened(reason, 200),
-                       comma ? " (a decimal comma? numbers have a decimal point, 1.5)" : ""));
-  } catch (const Json::exception& error) {
-    reject(source, "not valid JSON: " + shortened(parser_reason(error.what()), 200));
-  }
 }
 
 void check_thickness(const char* key, double thickness_mm, const std::string& where) {
@@ -292,7 +251,7 @@ void validate(const Mat& mat, const std::vector<std::string>& kinds, const std::
 
 Mat read(const std::filesystem::path& file, const std::vector<std::string>& kinds) {
   const auto source = file.string();
-  Mat mat = mat_from(parse(file_text(file), source), source);
+  Mat mat = mat_from(read_json(file, "a mat file"), source);
   validate(mat, kinds, source);
   for (auto& layer : mat.layers) {
     std::sort(layer.strands.begin(), layer.strands.end(),

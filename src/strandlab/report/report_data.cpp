@@ -10,6 +10,7 @@
 #include <string>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/json_text.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/io/case.hpp"
 #include "strandlab/io/checkpoint.hpp"
@@ -40,8 +41,8 @@ std::string needed_text(const fs::path& file) {
   return *text;
 }
 
-Json read_json(const fs::path& file) {
-  auto json = Json::parse(needed_text(file), nullptr, false);
+Json read_object(const fs::path& file, const std::string& what) {
+  auto json = read_json(file, what);
   if (!json.is_object()) throw InputError(fmt::format("{}: not a JSON object", file.string()));
   return json;
 }
@@ -143,7 +144,7 @@ Json report_data(const fs::path& run_folder) {
   if (!fs::exists(run_folder / "run.json")) {
     throw InputError(fmt::format("{}: holds no strandlab run (no run.json)", run_folder.string()));
   }
-  const auto record = read_json(run_folder / "run.json");
+  const auto record = read_object(run_folder / "run.json", "the record of a strandlab run");
   const auto c = read_run_case(run_folder);
   Json run{{"case", describe(c)},
            {"case_text", needed_text(run_folder / "case.toml")},
@@ -153,7 +154,7 @@ Json report_data(const fs::path& run_folder) {
            {"words", words()},
            {"tables", Json::object()},
            {"frames", pack_frames({}, {})}};
-  if (finished(record, "mat")) run["mat"] = read_json(run_folder / "mat.json");
+  if (finished(record, "mat")) run["mat"] = read_object(run_folder / "mat.json", "a mat file");
   if (finished(record, "press")) {
     std::vector<std::string> names(kTables.begin(), kTables.end());
     for (const double compaction : c.schedule.compactions) {

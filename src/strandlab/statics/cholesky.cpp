@@ -2,13 +2,40 @@
 
 #include <cholmod.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
 
 #include "strandlab/core/error.hpp"
 
 extern "C" void openblas_set_num_threads(int);
+extern "C" void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
+                       const double* a, const int* lda, const double* beta, double* c, const int* ldc);
 
 namespace strandlab::statics {
 namespace {
+
+// OpenBLAS takes a buffer at its first product and keeps it; where there is none to be had it asks for ever. So it is
+// asked for when it is known to be there, once, before CHOLMOD needs memory of its own. Throws RunError where it is
+// not.
+void take_blas_buffer() {
+  constexpr std::size_t kBuffer = std::size_t{129} << 20;  // bytes: BUFFER_SIZE of OpenBLAS on 64-bit machines, a page
+  static const bool taken = [] {
+    void* place = ::mmap(nullptr, kBuffer, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (place == MAP_FAILED) {
+      throw RunError(
+          fmt::format("the linear solver needs {} MB of address space for its buffer and more for its factor; "
+                      "allow the process more memory (ulimit -v)",
+                      kBuffer >> 20));
+    }
+    ::munmap(place, kBuffer);
+    openblas_set_num_threads(1);
+    const int one = 1;
+    const double number = 1;
+    double result = 0;
+    dsyrk_("L", "N", &one, &one, &number, &number, &one, &number, &result, &one);
+    return true;
+  }();
+  static_cast<void>(taken);
+}
 
 // A view of our arrays for CHOLMOD, which does not write to them.
 cholmod_sparse view(const LowerMatrix& matrix) {
@@ -50,10 +77,10 @@ struct Cholesky::Impl {
   cholmod_dense *work_y = nullptr, *work_e = nullptr;
 
   Impl() {
+    take_blas_buffer();
     cholmod_start(&common);
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.print = 0;
-    openblas_set_num_threads(1);
   }
   ~Impl() {
     cholmod_free_dense(&solution, &common);

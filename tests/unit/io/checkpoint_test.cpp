@@ -1,5 +1,7 @@
 #include "strandlab/io/checkpoint.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
 #include <sys/wait.h>
@@ -10,6 +12,7 @@
 #include <limits>
 #include <random>
 #include <thread>
+#include <vector>
 
 #include "strandlab/core/error.hpp"
 #include "support/temporary_folder.hpp"
@@ -294,6 +297,44 @@ TEST_F(CheckpointFile, LatticeThatDoesNotFitIsRefused) {
   H5Dclose(dataset);
   H5Fclose(file);
   expect_contains(refusal(), "strand 1 of 7 x 4 points goes beyond the 261 points stored");
+}
+
+// Replaces a dataset by one that claims these extents and stores nothing.
+void claim(const std::filesystem::path& path, const char* dataset, const std::vector<hsize_t>& extents, hid_t type) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  H5Ldelete(file, dataset, H5P_DEFAULT);
+  const auto rank = static_cast<int>(extents.size());
+  const hid_t space = H5Screate_simple(rank, extents.data(), nullptr);
+  const hid_t chunked = H5Pcreate(H5P_DATASET_CREATE);
+  const std::vector<hsize_t> chunk(extents.size(), 1);
+  H5Pset_chunk(chunked, rank, chunk.data());
+  H5Dclose(H5Dcreate2(file, dataset, type, space, H5P_DEFAULT, chunked, H5P_DEFAULT));
+  H5Pclose(chunked);
+  H5Sclose(space);
+  H5Fclose(file);
+}
+
+// Extents whose product wraps around or is beyond any memory are refused by what is stored, before they are allocated.
+TEST_F(CheckpointFile, ExtentsBeyondWhatIsStoredAreRefused) {
+  constexpr hsize_t kOne = 1;
+  const std::filesystem::path whole = folder_ / "whole.h5";
+  std::filesystem::copy_file(file_, whole);
+  struct Claim {
+    const char* dataset;
+    std::vector<hsize_t> extents;
+    hid_t type;
+  };
+  for (const auto& [dataset, extents, type] :
+       {Claim{"/panel/strands/row", {kOne << 40}, H5T_STD_I64LE},
+        Claim{"/panel/strands/points", {kOne << 24, kOne << 40}, H5T_STD_I64LE},
+        Claim{"/panel/points/plastic_strain", {kOne << 32, kOne << 32}, H5T_IEEE_F64LE},
+        Claim{"/panel/points/plastic_strain", {kOne << 40, 0}, H5T_IEEE_F64LE},
+        Claim{"/records/compaction", {kOne << 34}, H5T_IEEE_F64LE}}) {
+    std::filesystem::copy_file(whole, file_, std::filesystem::copy_options::overwrite_existing);
+    claim(file_, dataset, extents, type);
+    expect_contains(refusal(), fmt::format("dataset {} claims {} values, but only 0 bytes are stored", dataset,
+                                           fmt::join(extents, " x ")));
+  }
 }
 
 TEST_F(CheckpointFile, MissingDatasetIsNamed) {
