@@ -21,8 +21,7 @@ export interface Material {
 
 export interface CaseData {
   name: string;
-  length_mm: number;
-  layer_thickness_mm: number;
+  mat_file: string;  // empty: the mat was formed with the seed
   seed: number;
   kinds: Kind[];
   materials: Material[];
