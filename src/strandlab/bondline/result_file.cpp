@@ -95,6 +95,10 @@ std::string to_json(const Analysis& analysis, const std::string& input) {
 }
 
 double group_compliance(const std::filesystem::path& file, const std::string& group) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) {
+    throw InputError(fmt::format("{}: is a folder, not the file of a 'strandlab bondline' result", file.string()));
+  }
   std::ifstream in(file);
   if (!in) throw InputError(fmt::format("{}: cannot be read", file.string()));
   const Json json = Json::parse(in, nullptr, false);

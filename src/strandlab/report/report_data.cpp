@@ -11,6 +11,7 @@
 #include "strandlab/core/error.hpp"
 #include "strandlab/io/case.hpp"
 #include "strandlab/io/checkpoint.hpp"
+#include "strandlab/io/run_folder.hpp"
 #include "strandlab/report/frames.hpp"
 
 namespace strandlab::report {
@@ -32,7 +33,8 @@ std::optional<std::string> read_text(const fs::path& file) {
 
 std::string needed_text(const fs::path& file) {
   auto text = read_text(file);
-  if (!text) throw InputError(fmt::format("{}: cannot be read", file.string()));
+  if (!text)
+    throw InputError(fmt::format("{}: cannot be read; strandlab run makes a missing result again", file.string()));
   return *text;
 }
 
@@ -57,7 +59,26 @@ Json describe(const wood::Material& m) {
           {"hardening_K_MPa", m.hardening_K}};
 }
 
-Json describe(const io::Case& c) {
+// Materials of the case's kinds, and those that strands of a mat file name beside them.
+std::vector<wood::Material> materials_of(const io::Case& c, const Json& record) {
+  std::vector<wood::Material> materials, known = wood::library();
+  const auto add = [&materials](const wood::Material& m) {
+    const auto same = [&](const wood::Material& other) { return other.name == m.name; };
+    if (std::none_of(materials.begin(), materials.end(), same)) materials.push_back(m);
+  };
+  for (const auto& kind : io::strand_kinds(c)) add(kind.material);
+  for (const auto& kind : io::kinds_and_materials(c)) known.insert(known.begin(), kind.material);
+  const Json::json_pointer used("/mat/weight_fraction_by_material");
+  if (!record.contains(used)) return materials;
+  for (const auto& [name, fraction] : record[used].items()) {
+    const auto m = std::find_if(known.begin(), known.end(), [&](const auto& wood) { return wood.name == name; });
+    if (m != known.end()) add(*m);
+  }
+  return materials;
+}
+
+// Sizes are the mat's, not the case's: a mat file has its own.
+Json describe(const io::Case& c, const Json& record) {
   Json kinds = Json::array(), materials = Json::array();
   const auto strand_kinds = io::strand_kinds(c);
   for (std::size_t i = 0; i < strand_kinds.size(); ++i) {
@@ -68,12 +89,10 @@ Json describe(const io::Case& c) {
                      {"angle_spread_deg", c.kinds[i].angle_spread_deg},
                      {"yield_factor", kind.yield_factor},
                      {"stiffness_factor", kind.stiffness_factor}});
-    const auto known = [&](const Json& m) { return m.at("name") == kind.material.name; };
-    if (std::none_of(materials.begin(), materials.end(), known)) materials.push_back(describe(kind.material));
   }
+  for (const auto& material : materials_of(c, record)) materials.push_back(describe(material));
   return {{"name", c.name},
-          {"length_mm", c.length_mm},
-          {"layer_thickness_mm", c.layer_thickness_mm},
+          {"mat_file", c.mat_file},
           {"seed", c.seed},
           {"kinds", kinds},
           {"materials", materials},
@@ -86,8 +105,8 @@ Json describe(const io::Case& c) {
 }
 
 bool finished(const Json& record, const char* step) {
-  const auto steps = record.value("steps", Json::object());
-  return steps.is_object() && steps.contains(step) && steps[step].is_object() && steps[step].value("finished", false);
+  const auto& steps = record.at("steps");
+  return steps.contains(step) && steps[step].value("finished", false);
 }
 
 std::vector<fs::path> files_in(const fs::path& folder) {
@@ -112,14 +131,15 @@ std::vector<Panel<2>> read_frames(const fs::path& run_folder) {
 }
 
 Json report_data(const fs::path& run_folder) {
-  if (!fs::exists(run_folder / "run.json")) {
-    throw InputError(fmt::format("{}: holds no strandlab run (no run.json)", run_folder.string()));
-  }
-  const auto record = read_json(run_folder / "run.json");
+  auto record = io::read_run_record(run_folder);
+  record["steps"].erase("page");  // whether there was a page before changes nothing in this one
   const auto c = read_run_case(run_folder);
-  Json run{{"case", describe(c)},      {"case_text", needed_text(run_folder / "case.toml")},
-           {"record", record},         {"mat", nullptr},
-           {"tables", Json::object()}, {"frames", pack_frames({}, {})}};
+  Json run{{"case", describe(c, record)},
+           {"case_text", needed_text(run_folder / "case.toml")},
+           {"record", record},
+           {"mat", nullptr},
+           {"tables", Json::object()},
+           {"frames", pack_frames({}, {})}};
   if (finished(record, "mat")) run["mat"] = read_json(run_folder / "mat.json");
   if (finished(record, "press")) {
     std::vector<std::string> names(kTables.begin(), kTables.end());
