@@ -51,13 +51,13 @@ TEST(CanConnect, ByStrandsThatLieOverOneAnother) {
   EXPECT_FALSE(can_connect(mat_of({{{10, 60}}, {{55, 100}}}), 0)) << "nothing at x = 0";
 }
 
-// A strand of 20 mm gains 20 C/(1 - C) = 13.3 mm at C = 0.4 on a side, and may be moved by the mat's thickness, 1.6 mm:
-// one that begins at 14 mm may come to the end, and so may one across a gap of twice that; what is further off may not.
+// A strand of 20 mm gains 20 C/(1 - C) = 13.3 mm at C = 0.4, and may be moved by the mat's thickness, 1.6 mm: one that
+// begins 14 mm from the end may come to it, one at 16 mm may not; two may meet over a gap of 29 mm, not over one of 31.
 TEST(CanConnect, LeavesRoomForWhatThePressMoves) {
-  EXPECT_TRUE(can_connect(mat_of({{{14, 34}}, {{30, 100}}}), 0.4));
-  EXPECT_FALSE(can_connect(mat_of({{{16, 36}}, {{30, 100}}}), 0.4));
-  EXPECT_TRUE(can_connect(mat_of({{{0, 20}}, {{49, 69}}, {{69, 100}}}), 0.4));
-  EXPECT_FALSE(can_connect(mat_of({{{0, 20}}, {{51, 71}}, {{71, 100}}}), 0.4));
+  EXPECT_TRUE(can_connect(mat_of({{{14, 34}, {60, 80}}, {{40, 60}, {80, 100}}}), 0.4));
+  EXPECT_FALSE(can_connect(mat_of({{{16, 36}, {60, 80}}, {{40, 60}, {80, 100}}}), 0.4));
+  EXPECT_TRUE(can_connect(mat_of({{{0, 20}, {69, 89}}, {{49, 69}, {80, 100}}}), 0.4));
+  EXPECT_FALSE(can_connect(mat_of({{{0, 20}, {71, 91}}, {{51, 71}, {80, 100}}}), 0.4));
 }
 
 TEST(CheckEnds, SaysWhatHelps) {
