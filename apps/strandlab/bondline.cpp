@@ -106,7 +106,7 @@ int draw(const std::vector<bondline::Picture>& pictures, const fs::path& folder)
 }
 
 void write_results(const Arguments& a, const bondline::Analysis& analysis, const fs::path& folder) {
-  fs::create_directories(folder);
+  make_folder(folder);
   specimen_table(analysis).write(folder / "specimens.csv");
   group_table(analysis).write(folder / "groups.csv");
   comparison_table(analysis).write(folder / "comparisons.csv");
@@ -122,7 +122,8 @@ void analyse(const Arguments& a) {
   const fs::path input = a.file;
   const fs::path folder =
       a.folder.empty() ? fs::path("runs") / (input.stem().string() + "-bondline") : fs::path(a.folder);
-  if (!a.force && fs::exists(folder / "specimens.csv"))
+  std::error_code error;
+  if (!a.force && fs::exists(folder / "specimens.csv", error))
     throw InputError(
         fmt::format("{} holds results; --force overwrites them, -o names another folder", folder.string()));
   bondline::Options options;

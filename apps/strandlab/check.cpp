@@ -22,10 +22,16 @@ void check(const CaseArguments& arguments) {
   const auto mat = io::make_mat(c);
   const auto panel = io::make_panel(c, mat);
   vtest::check(panel, c.test);
+  if (c.sides == mpm::Side::kRoller) vtest::check_ends(panel, c.schedule.compactions.back());
   const auto e = io::estimate(c, panel);
   print("{}\n", io::resolved_text(c));
   print("# mat: {} rows, {} strands, {:g} x {:g} mm\n", mat.layers.size(), e.strands, mat.length_mm,
         mat.thickness_mm());
+  if (!c.mat_file.empty()) {
+    print(
+        "# from mat.file: the sizes and rows of this mat count, not mat.length_mm, mat.layer_thickness_mm, "
+        "mat.rows\n");
+  }
   for (const auto& line : composition(io::weigh(c, mat))) print("# {}\n", line);
   for (const auto& line : io::derived_constants(c)) print("# {}\n", line);
   print("# particles: {}\n# cells: {} of {:.4g} x {:.4g} mm\n", e.particles, e.cells, e.cell_length_mm,

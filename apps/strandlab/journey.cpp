@@ -2,6 +2,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
@@ -46,11 +47,12 @@ std::string read_text(const std::filesystem::path& file) {
   return text.str();
 }
 
-Journey start(const CaseArguments& arguments, io::Step first) {
+Journey start(const CaseArguments& arguments, io::Step first, io::Step last) {
   auto c = arguments.read();
   auto mat = io::make_mat(c);
   auto panel = io::make_panel(c, mat);
   vtest::check(panel, c.test);
+  if (last >= io::Step::kTest && c.sides == mpm::Side::kRoller) vtest::check_ends(panel, c.schedule.compactions.back());
   const double disk_bytes = io::estimate(c, panel).disk_bytes;
   io::RunFolder folder(arguments.run_folder(c), c, first, arguments.force, disk_bytes);
   folder.record()["strandlab"] = version();
@@ -66,8 +68,9 @@ Journey start(const CaseArguments& arguments, io::Step first) {
 
 }  // namespace
 
-void travel(const CaseArguments& arguments, io::Step first, const std::function<void(Journey&, Console&)>& steps) {
-  auto journey = start(arguments, first);
+void travel(const CaseArguments& arguments, io::Step first, io::Step last,
+            const std::function<void(Journey&, Console&)>& steps) {
+  auto journey = start(arguments, first, last);
   Console console;
   try {
     steps(journey, console);
@@ -77,11 +80,20 @@ void travel(const CaseArguments& arguments, io::Step first, const std::function<
   }
 }
 
+void refuse_missing_panels(const Journey& journey) {
+  auto missing = journey.folder.missing(io::Step::kPress, journey.c);
+  std::erase_if(missing, [](const std::string& name) { return name.rfind("panels/", 0) != 0; });
+  if (missing.empty()) return;
+  throw InputError(fmt::format(
+      "{}: missing: {}; only pressing again can make a panel: put it back, or press again with strandlab press --force",
+      journey.folder.path().string(), fmt::join(missing, ", ")));
+}
+
 void do_mat(Journey& journey, Console& console) {
   auto& folder = journey.folder;
   const auto file = folder.file("mat.json");
   const auto text = mat::to_text(journey.mat);
-  if (folder.finished(io::Step::kMat)) {
+  if (folder.finished(io::Step::kMat) && folder.missing(io::Step::kMat, journey.c).empty()) {
     if (read_text(file) != text) {
       throw InputError(
           fmt::format("{}: not the mat of this case (changed by hand, or the mat file has changed since); choose "
@@ -90,6 +102,7 @@ void do_mat(Journey& journey, Console& console) {
     }
     return;
   }
+  folder.forget(io::Step::kPage);
   mat::write(journey.mat, file);
   folder.set_finished(io::Step::kMat);
   console.say(fmt::format("mat: {} rows, {} strands -> {}", journey.mat.layers.size(), journey.panel.strands.size(),

@@ -16,12 +16,18 @@ struct Journey {
   io::RunFolder folder;
 };
 
-// Reads and checks the case, opens its run folder (with --force the steps from `first` on start again) and takes the
-// steps; an exception that ends them is logged. Throws InputError with nothing written for bad input.
-void travel(const CaseArguments& arguments, io::Step first, const std::function<void(Journey&, Console&)>& steps);
+// Reads and checks the case for all steps up to `last`, opens its run folder (with --force the steps from `first` on
+// start again) and takes the steps; an exception that ends them is logged. Throws InputError with nothing written for
+// bad input.
+void travel(const CaseArguments& arguments, io::Step first, io::Step last,
+            const std::function<void(Journey&, Console&)>& steps);
 
-// Each does its step unless the folder has it already, and says so. Throws InputError where a file of the folder cannot
-// be used, RunError for a failed simulation.
+// Throws InputError, with the remedy, where a panel of the finished pressing is no longer there.
+void refuse_missing_panels(const Journey& journey);
+
+// Each does its step unless the folder has it already, and says so; what is missing of a finished step is made again
+// where that needs no simulation. Throws InputError where a file of the folder is needed and cannot be used, RunError
+// for a failed simulation.
 void do_mat(Journey& journey, Console& console);
 void do_press(Journey& journey, Console& console);
 void do_test(Journey& journey, Console& console);

@@ -21,6 +21,7 @@
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/io/case.hpp"
+#include "strandlab/io/run_folder.hpp"
 #include "strandlab/report/report_data.hpp"
 #include "strandlab/report/section_picture.hpp"
 
@@ -115,8 +116,7 @@ void check(const MovieArguments& a, const std::string& extension) {
 // Numbered pictures of all frames, in the same colours. Returns how many.
 std::size_t draw_frames(const MovieArguments& a, const ScratchFolder& scratch) {
   const fs::path folder = a.folder;
-  if (!fs::exists(folder / "run.json"))
-    throw InputError(fmt::format("{}: holds no strandlab run (no run.json)", a.folder));
+  static_cast<void>(io::read_run_record(folder));
   const auto frames = report::read_frames(folder);
   if (frames.empty()) throw InputError(fmt::format("{}: holds no pressed panel yet", a.folder));
   std::vector<const Panel<2>*> all;

@@ -2,6 +2,7 @@
 #include "strandlab/press/press.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include "duration.hpp"
 #include "journey.hpp"
 #include "profile_bins.hpp"
+#include "strandlab/core/error.hpp"
 #include "strandlab/io/case_estimate.hpp"
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/io/vtk.hpp"
@@ -160,7 +162,7 @@ void write_report(Journey& journey, const std::vector<press::Record>& records, c
   findings.insert(findings.end(), shape.begin(), shape.end());
   journey.folder.record(io::Step::kPress)["findings"] = report::to_json(findings);
   draw_pictures(journey, panels);
-  warn_if(console, report::plot_stress(records, folder.file("pictures") / "stress.png"));
+  if (!records.empty()) warn_if(console, report::plot_stress(records, folder.file("pictures") / "stress.png"));
   warn_if(console, report::plot_grain_angles(shapes, folder.file("pictures") / "grain_angles.png"));
   warn_if(console, report::plot_thickness_strains(shapes, folder.file("pictures") / "thickness_strains.png"));
 }
@@ -172,8 +174,44 @@ mpm::Options engine_options(const io::Case& c) {
   return options;
 }
 
+void make_folders(const io::RunFolder& folder) {
+  for (const auto* name : {"panels", "frames", "paraview", "pictures"}) fs::create_directories(folder.file(name));
+}
+
+// The records of a finished pressing, from its last checkpoint; none where it has gone.
+std::vector<press::Record> last_records(const Journey& journey) {
+  const io::CheckpointStore store(journey.folder.path(), io::case_hash(journey.c, io::Step::kPress));
+  const auto last = store.load<2>(nullptr);
+  const bool complete = last && last->snapshots_done == static_cast<int>(journey.c.schedule.compactions.size());
+  return complete ? last->records : std::vector<press::Record>{};
+}
+
+// Tables that are missing of a finished pressing follow from its panels, press.csv from its last checkpoint.
+void restore_tables(Journey& journey, Console& console) {
+  auto& folder = journey.folder;
+  const auto missing = folder.missing(io::Step::kPress, journey.c);
+  if (missing.empty()) return;
+  refuse_missing_panels(journey);
+  std::vector<press::Record> records;
+  if (!fs::exists(folder.file("press.csv"))) {
+    records = last_records(journey);
+    if (records.empty()) {
+      throw InputError(
+          fmt::format("{}: missing: press.csv, and the checkpoint of the end of the pressing that has its numbers: put "
+                      "one back, or press again with strandlab press --force",
+                      folder.path().string()));
+    }
+  }
+  console.say(fmt::format("press: made again, as missing: {}", fmt::join(missing, ", ")));
+  folder.forget(io::Step::kPage);
+  make_folders(folder);
+  if (!records.empty()) report::press_table(records).write(folder.file("press.csv"));
+  write_report(journey, records, console);
+  folder.save();
+}
+
 void press_alone(const CaseArguments& arguments) {
-  travel(arguments, io::Step::kPress, [](Journey& journey, Console& console) {
+  travel(arguments, io::Step::kPress, io::Step::kPress, [](Journey& journey, Console& console) {
     do_mat(journey, console);
     do_press(journey, console);
   });
@@ -184,6 +222,7 @@ void press_alone(const CaseArguments& arguments) {
 void do_press(Journey& journey, Console& console) {
   auto& folder = journey.folder;
   if (folder.finished(io::Step::kPress)) {
+    restore_tables(journey, console);
     console.say(fmt::format("press: already done in {}", folder.path().string()));
     return;
   }
@@ -198,8 +237,8 @@ void do_press(Journey& journey, Console& console) {
   console.say(resume ? fmt::format("press: going on from compaction {:.4f}", resume->panel.compaction())
                      : fmt::format("press: {} particles on {} thread(s)", particles, threads));
   folder.record(io::Step::kPress)["started"] = true;
-  folder.save();
-  for (const auto* name : {"panels", "frames", "paraview", "pictures"}) fs::create_directories(folder.file(name));
+  folder.forget(io::Step::kPage);
+  make_folders(folder);
 
   const auto setup = press::setup(journey.panel, journey.c.grid, journey.c.sides, engine_options(journey.c));
   const auto outcome =

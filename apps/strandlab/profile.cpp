@@ -12,11 +12,13 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "commands.hpp"
 #include "console.hpp"
 #include "profile_bins.hpp"
+#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/io/case_write.hpp"
@@ -48,7 +50,8 @@ std::string name_of_folder(const fs::path& folder) {
 }
 
 Run open_run(const fs::path& folder) {
-  if (!fs::exists(folder / "case.toml")) {
+  std::error_code error;
+  if (!fs::exists(folder / "case.toml", error)) {
     throw InputError(
         fmt::format("{}: not the folder of a run (no case.toml); give folders that `strandlab run` or "
                     "`strandlab press` has filled",
@@ -220,7 +223,8 @@ void profile_runs(const Arguments& a) {
   refuse_same_panels(runs);
   const fs::path folder =
       a.folder.empty() ? fs::path("runs") / (name_of_folder(a.runs.front()) + "-profile") : fs::path(a.folder);
-  if (!a.force && fs::exists(folder / "profile.csv"))
+  std::error_code error;
+  if (!a.force && fs::exists(folder / "profile.csv", error))
     throw InputError(
         fmt::format("{} holds results; --force overwrites them, -o names another folder", folder.string()));
   std::vector<report::Replicate> replicates;
@@ -229,7 +233,7 @@ void profile_runs(const Arguments& a) {
   for (std::size_t i = 0; i < runs.size(); ++i) replicates.push_back(profiles_of(runs[i], names[i], a.bins));
   const auto means = means_of(replicates);
   const auto comparison = compare(a, means);
-  fs::create_directories(folder);
+  make_folder(folder);
   print_means(means);
   report::replicate_profile_table(replicates).write(folder / "profile.csv");
   report::replicate_summary_table(replicates).write(folder / "profile_summary.csv");

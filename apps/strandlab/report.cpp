@@ -10,8 +10,8 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "strandlab/core/atomic_file.hpp"
-#include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
+#include "strandlab/io/run_folder.hpp"
 #include "strandlab/report/html.hpp"
 #include "strandlab/report/report_data.hpp"
 
@@ -24,6 +24,18 @@ std::filesystem::path write_report_page(const std::filesystem::path& run_folder,
   return file;
 }
 
+namespace {
+
+// The folder's own page is one of its results; a page elsewhere is the user's file.
+std::filesystem::path make_page(const std::filesystem::path& run_folder, const std::filesystem::path& out) {
+  if (!out.empty()) return write_report_page(run_folder, out);
+  std::filesystem::path page;
+  io::write_page(run_folder, [&] { page = write_report_page(run_folder); });
+  return page;
+}
+
+}  // namespace
+
 void add_report(CLI::App& app) {
   struct Arguments {
     std::string folder, out;
@@ -33,7 +45,7 @@ void add_report(CLI::App& app) {
   command->add_option("DIR", arguments->folder, "run folder")->required();
   command->add_option("-o,--output", arguments->out, "file to write (default: report.html in the run folder)");
   command->callback(
-      [arguments] { print("report: {}\n", printable(write_report_page(arguments->folder, arguments->out).string())); });
+      [arguments] { print("report: {}\n", printable(make_page(arguments->folder, arguments->out).string())); });
 }
 
 }  // namespace strandlab::app

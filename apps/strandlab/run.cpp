@@ -14,24 +14,36 @@ namespace {
 
 // The report follows from the files that are there: a run does not fail for the want of its page.
 void do_report(Journey& journey, Console& console) {
+  auto& folder = journey.folder;
+  if (folder.finished(io::Step::kPage) && folder.missing(io::Step::kPage, journey.c).empty()) return;
   try {
-    console.say(fmt::format("report: {}", write_report_page(journey.folder.path()).string()));
+    const auto page = write_report_page(folder.path());
+    folder.set_finished(io::Step::kPage);
+    console.say(fmt::format("report: {}", page.string()));
   } catch (const std::exception& e) {
     console.warn(fmt::format("no report.html: {}", e.what()));
   }
 }
 
+// Whether all results but the page are there.
+bool is_done(const Journey& journey) {
+  const auto there = [&](io::Step step) {
+    return journey.folder.finished(step) && journey.folder.missing(step, journey.c).empty();
+  };
+  return there(io::Step::kMat) && there(io::Step::kPress) && there(io::Step::kTest);
+}
+
 void run(const CaseArguments& arguments) {
-  travel(arguments, io::Step::kMat, [](Journey& journey, Console& console) {
-    if (journey.folder.finished(io::Step::kTest)) {
-      if (!std::filesystem::exists(journey.folder.file("report.html"))) do_report(journey, console);
-      console.say(fmt::format("{}: this run is finished; --force runs it again", journey.folder.path().string()));
-      return;
+  travel(arguments, io::Step::kMat, io::Step::kPage, [](Journey& journey, Console& console) {
+    const bool done = is_done(journey);
+    if (!done) {
+      do_mat(journey, console);
+      do_press(journey, console);
+      do_test(journey, console);
     }
-    do_mat(journey, console);
-    do_press(journey, console);
-    do_test(journey, console);
     do_report(journey, console);
+    if (done)
+      console.say(fmt::format("{}: this run is finished; --force runs it again", journey.folder.path().string()));
   });
 }
 

@@ -1,5 +1,6 @@
 // strandlab test: virtual tests of the pressed panel at each compaction and glue quality.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -78,7 +79,7 @@ std::vector<report::Finding> findings_of(const Json& states) {
 void write_plots(const Journey& journey, const std::vector<report::PanelModulus>& moduli, Console& console) {
   const auto plots = journey.folder.file("plots");
   fs::create_directories(plots);
-  const auto theory = theory_moduli(theory_rows(journey.c), moduli, journey.c.off_axis);
+  const auto theory = theory_moduli(theory_rows(journey.c, journey.mat), moduli, journey.c.off_axis);
   theory_table(theory).write(journey.folder.file("theory.csv"));
   for (const auto kind : journey.c.test.kinds) {
     const std::string test = vtest::name(kind);
@@ -173,8 +174,20 @@ void test_state(Journey& journey, const Panel<2>& panel, double compaction, Cons
   folder.save();
 }
 
+// Tables that are missing of finished tests follow from the record.
+void restore_tables(Journey& journey, Console& console) {
+  auto& folder = journey.folder;
+  const auto missing = folder.missing(io::Step::kTest, journey.c);
+  if (missing.empty()) return;
+  console.say(fmt::format("test: made again, as missing: {}", fmt::join(missing, ", ")));
+  folder.forget(io::Step::kPage);
+  const auto moduli = moduli_of(folder.record(io::Step::kTest)["states"]);
+  report::moduli_table(moduli).write(folder.file("moduli.csv"));
+  write_plots(journey, moduli, console);
+}
+
 void test_alone(const CaseArguments& arguments) {
-  travel(arguments, io::Step::kTest, do_test);
+  travel(arguments, io::Step::kTest, io::Step::kTest, do_test);
 }
 
 }  // namespace
@@ -182,15 +195,18 @@ void test_alone(const CaseArguments& arguments) {
 void do_test(Journey& journey, Console& console) {
   auto& folder = journey.folder;
   if (folder.finished(io::Step::kTest)) {
+    restore_tables(journey, console);
     console.say(fmt::format("test: already done, {}", folder.file("moduli.csv").string()));
     return;
   }
+  refuse_missing_panels(journey);
   const auto hash = io::case_hash(journey.c, io::Step::kPress);
   std::vector<Panel<2>> panels;
   for (const double compaction : journey.c.schedule.compactions) {
     panels.push_back(io::read_panel<2>(folder.panel_file(compaction), hash));
   }
   console.log_to(folder.file("log.txt"));
+  folder.forget(io::Step::kPage);
   auto& states = folder.record(io::Step::kTest)["states"];
   if (states.is_null()) states = Json::array();
   for (auto i = states.size(); i < panels.size(); ++i) {

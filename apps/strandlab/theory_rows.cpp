@@ -42,7 +42,7 @@ double spread_of(const io::Case& c, const std::string& name) {
 
 }  // namespace
 
-std::vector<theory::Row> theory_rows(const io::Case& c) {
+std::vector<theory::Row> theory_rows(const io::Case& c, const mat::Mat& mat) {
   const auto kinds = io::strand_kinds(c);
   std::vector<theory::Row> rows;
   if (c.mat_file.empty()) {
@@ -55,7 +55,6 @@ std::vector<theory::Row> theory_rows(const io::Case& c) {
     }
     return rows;
   }
-  const auto mat = io::make_mat(c);
   const auto woods = io::kinds_and_materials(c);
   for (std::size_t i = 0; i < mat.layers.size(); ++i) {
     rows.push_back(row_of_kind(kinds, mat.layers[i].role));

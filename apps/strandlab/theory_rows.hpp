@@ -9,9 +9,8 @@
 namespace strandlab::app {
 
 // Rows bottom to top with material, thickness, grain angles and strand statistics: those of the case's layup, or, for a
-// case with a mat file, the mean strand length of each of its rows, the gap that gives the row's solid fraction, and
-// material and angle of each strand.
-// Throws as io::layup() and io::make_mat().
-std::vector<theory::Row> theory_rows(const io::Case& c);
+// case with a mat file, of `mat`, which was read from it: the mean strand length of each of its rows, the gap that
+// gives the row's solid fraction, and material and angle of each strand. Throws as io::layup().
+std::vector<theory::Row> theory_rows(const io::Case& c, const mat::Mat& mat);
 
 }  // namespace strandlab::app

@@ -7,6 +7,7 @@ import resource
 import shutil
 import signal
 import subprocess
+import time
 
 from program import PROGRAM, SMALL_CASE, SOURCE, DONE, check, expect_bad_input, files, finish, scratch, strandlab
 
@@ -121,6 +122,31 @@ def run_folders():
         expect_bad_input(["test", "panel.toml", "-o", folder, "--force"], [folder, "no pressed panel"])
     pathlib.Path("run/mat.json").write_text("{}", encoding="utf-8")
     expect_bad_input(["mat", "panel.toml", "-o", "run"], ["run/mat.json", "not the mat of this case"])
+    pathlib.Path("loop").symlink_to("loop")
+    for name, why in (("loop", "ymbolic link"), ("loop/run", "ymbolic link"), ("x" * 5000, "too long")):
+        expect_bad_input(["mat", "panel.toml", "-o", name], ["cannot be a run folder", why])
+        expect_bad_input(["report", name], ["no strandlab run"])
+        expect_bad_input(["movie", name], [])
+        expect_bad_input(["profile", name], ["no case.toml"])
+    expect_bad_input(["report", "run", "-o", "loop/report.html"], ["loop/report.html"])
+    expect_bad_input(["mat", "panel.toml", "--set", "glue.from_bondline=.", "--set", "glue.group=a"], ["is a folder", "strandlab bondline"])
+
+
+def records():
+    """A run.json that is none is answered at once, however deep it is."""
+    pathlib.Path("panel.toml").write_text("[mat]\nlength_mm = 5\nrows = [\"surface*2\"]\n", encoding="utf-8")
+    pathlib.Path("run").mkdir()
+    for text in ('{"strandlab": "1", "case": [1, 2], "steps": {}}',
+                 '{"strandlab": "1", "case": [], "steps": {"mat": {"x": ' + "[" * 200000 + "]" * 200000 + "}}}"):
+        pathlib.Path("run/run.json").write_text(text, encoding="utf-8")
+        for command in (["mat", "panel.toml", "-o", "run"], ["mat", "panel.toml", "-o", "run", "--force"], ["report", "run"],
+                        ["report", "run", "-o", "page.html"]):
+            begin = time.monotonic()
+            expect_bad_input(command, ["run/run.json", "not the record of a strandlab run"])
+            check(time.monotonic() - begin < 10, f"{command}: takes {time.monotonic() - begin} s")
+    pathlib.Path("run/run.json").unlink()
+    pathlib.Path("run/run.json").mkdir()
+    expect_bad_input(["mat", "panel.toml", "-o", "run"], ["run/run.json", "not the record of a strandlab run"])
 
 
 def hdf5_files():
@@ -216,7 +242,7 @@ def names_of_any_bytes():
         check(result.returncode == DONE, f"a mat file in a folder that is not UTF-8: {result.stderr}")
 
 
-TESTS = [usage, names_of_any_bytes, case_files, overrides, mat_files, tests_no_mat_can_take, run_folders, hdf5_files, no_permission, no_space]
+TESTS = [usage, names_of_any_bytes, case_files, overrides, mat_files, tests_no_mat_can_take, run_folders, records, hdf5_files, no_permission, no_space]
 
 for test in TESTS:
     with scratch():

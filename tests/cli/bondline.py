@@ -97,6 +97,10 @@ def bad_input():
     expect_bad_input(["bondline", DATA / "records.csv", "--records", DATA / "records", "--window-percent", "40,10", "-o", "x"],
                      ["40 to 10 %"])
     expect_bad_input(["bondline", "dls.csv", "--u-k", "-1", "-o", "x"], ["--u-k"])
+    expect_bad_input(["bondline", "dls.csv", "-o", "dls.csv"], ["cannot make the folder dls.csv", "-o"])
+    pathlib.Path("loop").symlink_to("loop")
+    expect_bad_input(["bondline", "dls.csv", "-o", "loop"], ["cannot make the folder loop"])
+    expect_bad_input(["bondline", "dls.csv", "-o", "x" * 5000], ["cannot make the folder", "too long"])
     expect_bad_input(["bondline", "--design", "--compliance-t", "0"], ["above zero"])
     expect_bad_input(["bondline", "--design", "--t1-mm", "0"], ["t1_mm = 0 must be positive"])
     lines = pathlib.Path("dls.csv").read_text(encoding="utf-8").splitlines(keepends=True)

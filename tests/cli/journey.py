@@ -7,7 +7,7 @@ import random
 import subprocess
 import time
 
-from program import DONE, FAILED, PROGRAM, SMALL_CASE, SOURCE, check, files, finish, scratch, strandlab
+from program import DONE, FAILED, PROGRAM, SMALL_CASE, SOURCE, check, expect_bad_input, files, finish, scratch, strandlab
 
 CASE = SMALL_CASE + """[run]
 checkpoint_interval_s = 0.05
@@ -121,6 +121,10 @@ APART = """{"length_mm": 5, "layer_thickness_mm": 0.8, "layers": [
   {"role": "surface", "strands": [{"x0": 2, "x1": 5}]}]}"""
 
 
+ONE_ROW = """{"length_mm": 5, "layer_thickness_mm": 0.8, "layers": [
+  {"role": "surface", "strands": [{"x0": 0, "x1": 2}, {"x0": 3, "x1": 5}]}]}"""
+
+
 def not_testable():
     """A panel that cannot be tested costs its own moduli only; that none can is an error."""
     pathlib.Path("mat.json").write_text(APART, encoding="utf-8")
@@ -134,6 +138,42 @@ def not_testable():
     check([("not_testable" in s, len(s["moduli"]) > 0) for s in states] == [(True, False), (False, True)], f"run.json: {states}")
     none = strandlab("run", "a.toml", "-o", "none", "--set", "press.compactions=[0]")
     check(none.returncode == 2 and "no panel can be tested" in none.stderr, f"none: {none.returncode} {none.stderr}")
+
+
+def missing_results():
+    """A finished run of which results were deleted makes again what follows from the rest, and says what only pressing can make."""
+    pathlib.Path("a.toml").write_text(CASE, encoding="utf-8")
+    check(strandlab("run", "a.toml", "-o", "out").returncode == DONE, "run")
+    before = results("out")
+    page = pathlib.Path("out/report.html").read_bytes()
+    for name in ("mat.json", "press.csv", "profile.csv", "moduli.csv", "theory.csv", "report.html"):
+        kept = pathlib.Path("out", name).read_bytes()
+        pathlib.Path("out", name).unlink()
+        result = strandlab("run", "a.toml", "-o", "out")
+        check(result.returncode == DONE and "this run is finished" not in result.stdout or name == "report.html", f"{name}: {result.stdout}")
+        check(name in result.stdout and pathlib.Path("out", name).read_bytes() == kept, f"{name} is made again: {result.stdout}{result.stderr}")
+    check(results("out") == before and pathlib.Path("out/report.html").read_bytes() == page, "all is as it was")
+    moved = pathlib.Path("out/panels/panel_0.02.h5").rename("panel")
+    for command in ("run", "press"):
+        result = strandlab(command, "a.toml", "-o", "out")
+        check(result.returncode == 2 and "panels/panel_0.02.h5" in result.stderr and "--force" in result.stderr, f"{command}: {result.stderr}")
+    result = strandlab("test", "a.toml", "-o", "out", "--force")
+    check(result.returncode == 2 and "panels/panel_0.02.h5" in result.stderr and "put it back" in result.stderr, f"test: {result.stderr}")
+    moved.rename("out/panels/panel_0.02.h5")
+    for name in ("press.csv", "checkpoint.h5", "checkpoint.previous.h5"):
+        pathlib.Path("out", name).unlink()
+    result = strandlab("run", "a.toml", "-o", "out")
+    check(result.returncode == 2 and "press.csv" in result.stderr and "--force" in result.stderr, f"no checkpoint: {result.stderr}")
+
+
+def nothing_to_test():
+    """A mat whose ends nothing can connect is refused before hours of pressing, not after; it can be pressed all the same."""
+    pathlib.Path("mat.json").write_text(ONE_ROW, encoding="utf-8")
+    pathlib.Path("a.toml").write_text("[mat]\nfile = \"mat.json\"\n[press]\ncompactions = [0, 0.02]\n", encoding="utf-8")
+    for command in ("run", "check"):
+        expect_bad_input([command, "a.toml"], ["nothing to test in this mat", "x = 5 mm", "strandlab press"])
+    check(strandlab("press", "a.toml").returncode == DONE, "press alone")
+    check(strandlab("test", "a.toml").returncode == 2, "test")
 
 
 def threads():
@@ -176,7 +216,7 @@ def failing():
     check(result.stderr.split(": ", 1)[1].strip() in pathlib.Path("runs/a/log.txt").read_text(encoding="utf-8"), "the log has the error")
 
 
-for test in (init_and_check, overrides, single_steps, run_folder, not_testable, threads, killed, failing):
+for test in (init_and_check, overrides, single_steps, run_folder, missing_results, not_testable, nothing_to_test, threads, killed, failing):
     with scratch():
         test()
 finish()

@@ -5,8 +5,9 @@ import os
 import pathlib
 import shutil
 import stat
+import subprocess
 
-from program import DONE, FAILED, SMALL_CASE, check, expect_bad_input, finish, scratch, strandlab
+from program import DONE, FAILED, PROGRAM, SMALL_CASE, check, expect_bad_input, finish, scratch, strandlab
 
 # Names are the user's: this one wants to be markup.
 HOSTILE = "</script><script>alert(1)</script><b>\"'&\U0001fab5" + "x" * 300
@@ -99,6 +100,57 @@ def run_without_a_page():
     check(result.returncode == DONE and pathlib.Path("bare/report.html").exists(), "a finished run gets its report later")
 
 
+def several_at_once():
+    """Reports of one folder that are made at the same time are all made."""
+    commands = [subprocess.Popen([PROGRAM, "report", "moved"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(8)]
+    for command in commands:
+        _, errors = command.communicate()
+        check(command.returncode == DONE, f"one of several reports: {errors}")
+    check(len(data_of("moved/report.html")["run"]["frames"]["frames"]) == 41, "and the page is whole")
+    check(not list(pathlib.Path("moved").glob("*.tmp")), "nothing is left of them")
+
+
+def mat_of_another_length():
+    """The page's sizes are those of the mat, also where a mat file's are not those of the case."""
+    pathlib.Path("m.toml").write_text(SMALL_CASE, encoding="utf-8")
+    check(strandlab("mat", "m.toml", "-o", "formed").returncode == DONE, "mat")
+    mat = json.loads(pathlib.Path("formed/mat.json").read_text(encoding="utf-8"))
+    mat["layers"][0]["strands"][0]["material"] = "aspen"
+    pathlib.Path("mat.json").write_text(json.dumps(mat), encoding="utf-8")
+    aspen = ["--set", "materials.aspen.density_kg_m3=390", "--set", "mat.file=mat.json", "--set", "mat.length_mm=100"]
+    shown = strandlab("check", "m.toml", *aspen).stdout
+    check("5 x 1.6 mm" in shown and "not mat.length_mm" in shown, f"check: {shown}")
+    check(strandlab("run", "m.toml", "-o", "other", *aspen).returncode == DONE, "run")
+    run = data_of("other/report.html")["run"]
+    check(run["mat"]["length_mm"] == 5 and not {"length_mm", "layer_thickness_mm"} & set(run["case"]), f"sizes: {run['case'].keys()}")
+    check(run["case"]["mat_file"].endswith("mat.json"), "the page names the mat file")
+    check({m["name"] for m in run["case"]["materials"]} == {"poplar", "aspen"}, f"materials: {run['case']['materials']}")
+    expect_bad_input(["check", "m.toml", *aspen, "--set", "test.kinds=[bending_3_point]"], ["mat.json", "length_mm of the mat file is 5"])
+
+
+def stale_page():
+    """A page never stands beside results that it does not show."""
+    pathlib.Path("s.toml").write_text(SMALL_CASE, encoding="utf-8")
+    page = pathlib.Path("stale/report.html")
+    other = ["s.toml", "-o", "stale", "--set", "run.seed=2"]
+    check(strandlab("run", "s.toml", "-o", "stale").returncode == DONE, "run with seed 1")
+    check(strandlab("press", *other, "--force").returncode == DONE and not page.exists(), "pressed again: the page is gone")
+    check(strandlab("report", "stale").returncode == DONE and page.exists(), "report of what there is")
+    check(strandlab("test", *other).returncode == DONE and not page.exists(), "tested: the page lacks the moduli, and is gone")
+    check(strandlab("run", *other).returncode == DONE, "run with seed 2")
+    run = data_of(page)["run"]
+    check(run["record"]["seed"] == 2 and "moduli.csv" in run["tables"], f"the page is that of seed {run['record']['seed']}")
+    # Ends between the tests and the page, as a kill there does.
+    bare = {**os.environ, "STRANDLAB_SHARE": "/nowhere"}
+    check(strandlab("run", "s.toml", "-o", "stale", "--force", env=bare).returncode == DONE and not page.exists(), "run --force without a page")
+    check(strandlab("run", "s.toml", "-o", "stale").returncode == DONE and data_of(page)["run"]["record"]["seed"] == 1, "then with one")
+    # A page that strandlab report made counts as well.
+    page.unlink()
+    check(strandlab("report", "stale").returncode == DONE, "report")
+    before = page.stat().st_mtime_ns
+    check("finished" in strandlab("run", "s.toml", "-o", "stale").stdout and page.stat().st_mtime_ns == before, "is kept")
+
+
 def path_with_ffmpeg(script):
     """An environment whose only ffmpeg is this shell script (None: no ffmpeg)."""
     folder = pathlib.Path("path").absolute()
@@ -137,5 +189,8 @@ if __name__ == "__main__":
         hostile_names()
         refusals()
         run_without_a_page()
+        several_at_once()
+        mat_of_another_length()
+        stale_page()
         movie()
     finish()

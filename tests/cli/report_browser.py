@@ -40,7 +40,9 @@ def hostile_page(page):
 if __name__ == "__main__":
     with scratch():
         pathlib.Path("a.toml").write_text(SMALL_CASE, encoding="utf-8")
-        result = strandlab("run", "a.toml", "-o", "out")
+        check(strandlab("mat", "a.toml", "-o", "formed").returncode == DONE, "mat")
+        # The mat of a file: its length, 5 mm, is not the case's.
+        result = strandlab("run", "a.toml", "-o", "out", "--set", "mat.file=formed/mat.json", "--set", "mat.length_mm=100")
         check(result.returncode == DONE, f"run: {result.stderr}")
         pathlib.Path("hostile.html").write_text(hostile_page("out/report.html"), encoding="utf-8")
         node = subprocess.run([shutil.which("node"), SOURCE / "web" / "test" / "report.mjs", "out", "hostile.html"],

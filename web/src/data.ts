@@ -21,9 +21,8 @@ export interface Material {
 
 export interface CaseData {
   name: string;
-  length_mm: number;
-  layer_thickness_mm: number;
-  seed: string; // digits: a number is exact to 2^53 only
+  mat_file: string;  // empty: the mat was formed with the seed
+  seed: string;      // digits: a number is exact to 2^53 only
   kinds: Kind[];
   materials: Material[];
   compactions: number[];

@@ -51,7 +51,7 @@ function header(run: Run, film: {strands: number}): HTMLElement {
   const strands = film.strands || (run.mat?.layers.reduce((sum, layer) => sum + layer.strands.length, 0) ?? 0);
   const most = c.compactions[c.compactions.length - 1] ?? 0;
   const words = [
-    rows > 0 ? `A mat of ${strands} strands in ${rows} rows, ${Number(c.length_mm.toFixed(3))} mm long` : `A mat ${c.length_mm} mm long`,
+    run.mat ? `A mat of ${strands} strands in ${rows} rows, ${Number(run.mat.length_mm.toFixed(3))} mm long` : 'A mat that is not formed yet',
     most > 0 ? `pressed to ${percent(most)} at ${c.speed_m_s} m/s` : 'as laid',
   ];
   return el('header', {class: 'page-head'},
@@ -80,13 +80,15 @@ function section(title: string, ...children: (Node | null | undefined)[]): HTMLE
 
 // ---- charts
 
-// Stress of a platen is its force over the mat's face, 1 mm deep in a section.
+// Stress of a platen is its force over the mat's face, 1 mm deep in a section. The mat's length is its own: a mat file
+// need not have that of the case.
 function pressCharts(run: Run): Chart[] {
   const press = table(run, 'press.csv');
-  if (!press) return [];
+  if (!press || !run.mat) return [];
+  const {length_mm} = run.mat;
   const compaction = press.numbers('compaction');
   const stress = press.numbers('stress_MPa');
-  const platen = (name: string) => press.numbers(name).map(force => force / run.case.length_mm);
+  const platen = (name: string) => press.numbers(name).map(force => force / length_mm);
   const percents = compaction.map(c => 100 * c);
   const x = {min: 0, max: Math.max(1, Math.round(Math.max(...percents)))};
   const energy = (name: string, label: string): Series => ({name: label, x: percents, y: press.numbers(name)});
@@ -288,7 +290,7 @@ function provenance(run: Run): HTMLElement {
   const rows: [string, string | undefined][] = [
     ['Program', record.strandlab && `strandlab ${record.strandlab} (${record.git ?? 'unknown commit'})`],
     ['Run begun', record.date],
-    ['Seed of the mat', String(run.case.seed)],
+    run.case.mat_file ? ['Mat', `read from ${run.case.mat_file}`] : ['Seed of the mat', String(run.case.seed)],
     ['Machine', [m.host, m.cpu, m.cores && `${m.cores} cores`, m.system].filter(Boolean).join(', ')],
     ['Pressing', press?.wall_s !== undefined ? `${press.particles ?? '?'} particles, ${press.steps ?? '?'} steps, ${duration(press.wall_s)} on ` +
       `${press.threads ?? '?'} thread(s), ${formatNumber((press.particle_steps_per_s ?? 0) / 1e6)} million particle-steps/s` : undefined],

@@ -120,6 +120,8 @@ async function chartsShowTheTables() {
   same('top platen', stress.series[0].data, column('force_top_N').map(([c, f]) => [c, f / run.length_mm]));
   same('bottom platen', stress.series[1].data, column('force_bottom_N').map(([c, f]) => [c, f / run.length_mm]));
   same('mean stress', stress.series[2].data, column('stress_MPa'));
+  const lead = await page.textContent('.lead');
+  check(lead.includes(` ${Number(run.length_mm.toFixed(3))} mm long`), `the page says how long the mat is: ${lead}`);
   check(/stress/i.test(stress.label), `the stress chart says what it is: ${stress.label}`);
   const energies = await chart(page, 'energies');
   ['platen_work', 'plastic', 'elastic', 'friction', 'contact', 'filter', 'kinetic'].forEach((name, i) =>

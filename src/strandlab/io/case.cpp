@@ -76,11 +76,11 @@ void refuse_too_short(const Case& c, const Panel<2>& panel) {
   const double thickness = panel.initial_thickness_mm * (1 - compaction);
   const double needed = vtest::needed_length_mm(c.test, thickness);
   if (panel.length_mm >= needed * (1 - 1e-9)) return;  // up to round-off
-  throw InputError(fmt::format(
-      "{}: test.kinds: 3- and 4-point bending at a span of {:g} thicknesses need a mat {:.0f} mm long at "
-      "compaction {} ({:.2f} mm thick); mat.length_mm is {:g}. Lengthen the mat, or begin press.compactions "
-      "later",
-      c.name, c.test.span_to_thickness, std::ceil(needed), compaction, thickness, panel.length_mm));
+  throw InputError(
+      fmt::format("{}: test.kinds: 3- and 4-point bending at a span of {:g} thicknesses need a mat {:.0f} mm long at "
+                  "compaction {} ({:.2f} mm thick); {} {:g}. Lengthen the mat, or begin press.compactions later",
+                  c.name, c.test.span_to_thickness, std::ceil(needed), compaction, thickness,
+                  c.mat_file.empty() ? "mat.length_mm is" : "the length_mm of the mat file is", panel.length_mm));
 }
 
 }  // namespace

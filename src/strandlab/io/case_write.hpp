@@ -18,9 +18,11 @@ std::string commented_text(const Case& c, const std::string& title);
 // The reference page of all keys (Markdown): docs/cases.md.
 std::string reference_text();
 
+// Steps of the journey, in order; the page (report.html) shows the results of all the others.
+enum class Step { kMat, kPress, kTest, kPage };
+
 // What the results depend on, one "key = value" per line, up to a step of the journey; runs with the same lines have
 // the same bits.
-enum class Step { kMat, kPress, kTest };
 std::vector<std::string> identity(const Case& c, Step last);
 
 // 16 hexadecimal digits that stand for identity() in result files.

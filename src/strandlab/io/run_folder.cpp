@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <initializer_list>
 #include <utility>
 
 #include "strandlab/core/atomic_file.hpp"
@@ -23,26 +24,38 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr std::array kSteps{Step::kMat, Step::kPress, Step::kTest};
+constexpr std::array kSteps{Step::kMat, Step::kPress, Step::kTest, Step::kPage};
 
 const char* name_of_step(Step step) {
-  static constexpr std::array names{"mat", "press", "test"};
+  static constexpr std::array names{"mat", "press", "test", "page"};
   return names[static_cast<std::size_t>(step)];
+}
+
+// Files of a step that later ones and the user count on.
+std::vector<std::string> tables_of(Step step) {
+  switch (step) {
+    case Step::kMat:
+      return {"mat.json"};
+    case Step::kPress:
+      return {"press.csv", "morphology.csv", "histograms.csv", "profile.csv", "profile_summary.csv"};
+    case Step::kTest:
+      return {"moduli.csv", "theory.csv"};
+    case Step::kPage:
+      break;
+  }
+  return {"report.html"};
 }
 
 // Files and folders that a step leaves.
 std::vector<std::string> results_of(Step step) {
-  if (step == Step::kMat) return {"mat.json"};
-  if (step == Step::kPress) {
-    return {"press.csv",     "morphology.csv",         "histograms.csv", "profile.csv", "profile_summary.csv",
-            "checkpoint.h5", "checkpoint.previous.h5", "panels",         "frames",      "paraview",
-            "pictures"};
-  }
-  return {"moduli.csv", "theory.csv", "plots", "glue_lines"};
-}
-
-bool is_temporary(const fs::path& file) {
-  return file.extension() == ".tmp";
+  auto names = tables_of(step);
+  const auto add = [&names](std::initializer_list<const char*> more) {
+    names.insert(names.end(), more.begin(), more.end());
+  };
+  if (step == Step::kPress)
+    add({"checkpoint.h5", "checkpoint.previous.h5", "panels", "frames", "paraview", "pictures"});
+  if (step == Step::kTest) add({"plots", "glue_lines"});
+  return names;
 }
 
 // The nearest folder above that exists: where a new folder would be made.
@@ -53,6 +66,11 @@ fs::path existing_part(fs::path folder) {
 }
 
 void refuse_unwritable(const fs::path& folder, double needed_bytes) {
+  std::error_code error;
+  if (fs::status(folder, error).type() == fs::file_type::none) {  // neither there nor not: a loop, or too long a name
+    throw InputError(
+        fmt::format("{}: cannot be a run folder: {}; choose another with -o", folder.string(), error.message()));
+  }
   const auto existing = existing_part(fs::absolute(folder));
   if (!fs::is_directory(existing)) {
     throw InputError(
@@ -62,7 +80,6 @@ void refuse_unwritable(const fs::path& folder, double needed_bytes) {
     throw InputError(fmt::format("{}: cannot write to {}: {}; choose another run folder with -o", folder.string(),
                                  existing.string(), std::strerror(errno)));
   }
-  std::error_code error;
   const auto space = fs::space(existing, error);
   if (!error && static_cast<double>(space.available) < needed_bytes) {
     throw InputError(fmt::format("{}: the run needs about {:.0f} MB of disk space, {:.0f} MB are free", folder.string(),
@@ -70,19 +87,11 @@ void refuse_unwritable(const fs::path& folder, double needed_bytes) {
   }
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw InputError(
-        fmt::format("{}: cannot make this run folder: {}; choose another with -o", folder.string(), error.message()));
-  }
-}
-
-// Holds as long as the descriptor is open, also over a kill -9.
-int lock_folder(const fs::path& folder) {
+// Holds as long as the descriptor is open, also over a kill -9. `kind` is LOCK_EX, or LOCK_SH for what several may do
+// at once.
+int lock_folder(const fs::path& folder, int kind) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+  if (descriptor >= 0 && ::flock(descriptor, kind | LOCK_NB) == 0) return descriptor;
   const int reason = errno;
   if (descriptor >= 0) ::close(descriptor);
   if (reason == EWOULDBLOCK)
@@ -90,14 +99,27 @@ int lock_folder(const fs::path& folder) {
   throw InputError(fmt::format("{}: cannot open this run folder: {}", folder.string(), std::strerror(reason)));
 }
 
+bool is_step(const Json& step) {
+  return step.is_object() && (!step.contains("finished") || step["finished"].is_boolean());
+}
+
+bool is_record(const Json& record) {
+  return record.is_object() && record.contains("strandlab") && record.contains("case") && record["case"].is_array() &&
+         std::all_of(record["case"].begin(), record["case"].end(), [](const Json& line) { return line.is_string(); }) &&
+         record.contains("steps") && record["steps"].is_object() &&
+         std::all_of(record["steps"].begin(), record["steps"].end(), is_step);
+}
+
 Json read_record(const fs::path& file) {
   auto record = read_json(file, "the record of a strandlab run");
-  const bool ours = record.is_object() && record.contains("strandlab") && record.contains("case") &&
-                    record["case"].is_array() && record.contains("steps") && record["steps"].is_object();
-  if (!ours)
+  if (!is_record(record))
     throw InputError(
         fmt::format("{}: not the record of a strandlab run; choose another folder with -o", file.string()));
   return record;
+}
+
+void save_record(const Json& record, const fs::path& folder) {
+  write_atomically(folder / "run.json", record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 std::vector<std::string> all_lines(const Case& c) {
@@ -149,10 +171,10 @@ RunFolder::RunFolder(fs::path folder, const Case& c, Step first, bool force, dou
   if (exists && !force) refuse_other_case(c);
   if (first == Step::kTest) refuse_unpressed(exists, c);
   make_folder(folder_);
-  lock_ = lock_folder(folder_);
+  lock_ = lock_folder(folder_, LOCK_EX);
   if (exists && force) {
     const auto recorded = record_["case"].get<std::vector<std::string>>();
-    forget_steps(recorded == all_lines(c) ? first : std::min(first, first_changed(recorded, c)));
+    erase_steps(recorded == all_lines(c) ? first : std::min(first, first_changed(recorded, c)));
   }
   if (!exists) record_ = {{"steps", Json::object()}};
   write_case(c);
@@ -187,7 +209,7 @@ Json& RunFolder::record(Step step) {
 }
 
 void RunFolder::save() const {
-  write_atomically(file("run.json"), record_.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  save_record(record_, folder_);
 }
 
 bool RunFolder::finished(Step step) const {
@@ -201,12 +223,22 @@ void RunFolder::set_finished(Step step) {
   save();
 }
 
+std::vector<std::string> RunFolder::missing(Step step, const Case& c) const {
+  auto names = tables_of(step);
+  if (step == Step::kPress) {
+    for (const double compaction : c.schedule.compactions)
+      names.push_back(panel_file(compaction).lexically_relative(folder_).string());
+  }
+  std::erase_if(names, [this](const std::string& name) { return fs::exists(file(name)); });
+  return names;
+}
+
 // A folder with files but without run.json is not ours, whatever --force says.
 void RunFolder::refuse_foreign_folder() const {
   std::error_code error;
   if (!fs::is_directory(folder_, error) || fs::exists(file("run.json"), error)) return;
   for (const auto& entry : fs::directory_iterator(folder_, error)) {
-    if (!is_temporary(entry.path())) {
+    if (entry.path().extension() != ".tmp") {
       throw InputError(
           fmt::format("{}: this folder holds files but no strandlab run (no run.json); choose an empty or a new one "
                       "with -o",
@@ -241,19 +273,31 @@ void RunFolder::refuse_unpressed(bool exists, const Case& c) const {
                   folder_.string(), differences(recorded, here)));
 }
 
-void RunFolder::forget_steps(Step first) {
+void RunFolder::forget(Step first) {
+  erase_steps(first);
+  save();
+  remove_leftovers();
+}
+
+void RunFolder::erase_steps(Step first) {
   for (const auto step : kSteps) {
     if (step >= first) record_["steps"].erase(name_of_step(step));
   }
 }
 
-// Files of steps that the record does not know: from before --force. The record is saved first, so that a kill in
+// What a kill left half written, and files of steps that the record does not know: from before --force, or a page of
+// another state. The record is saved first, so that a kill in
 // between leaves no result without its case.
 void RunFolder::remove_leftovers() const {
   for (const auto step : kSteps) {
     if (record_["steps"].contains(name_of_step(step))) continue;
     for (const auto& name : results_of(step)) fs::remove_all(file(name));
   }
+  std::vector<fs::path> temporaries;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_, fs::directory_options::skip_permission_denied)) {
+    if (is_temporary(entry.path())) temporaries.push_back(entry.path());
+  }
+  for (const auto& temporary : temporaries) fs::remove(temporary);
 }
 
 void RunFolder::write_case(const Case& c) {
@@ -262,6 +306,25 @@ void RunFolder::write_case(const Case& c) {
   record_["case"] = all_lines(c);
   save();
   write_atomically(file("case.toml"), resolved_text(c));
+}
+
+Json read_run_record(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder / "run.json", error))
+    throw InputError(fmt::format("{}: holds no strandlab run (no run.json)", folder.string()));
+  return read_record(folder / "run.json");
+}
+
+void write_page(const fs::path& folder, const std::function<void()>& write) {
+  static_cast<void>(read_run_record(folder));
+  struct Lock {
+    int descriptor;
+    ~Lock() { ::close(descriptor); }
+  } const lock{lock_folder(folder, LOCK_SH)};
+  auto record = read_record(folder / "run.json");
+  write();
+  record["steps"][name_of_step(Step::kPage)]["finished"] = true;
+  save_record(record, folder);
 }
 
 }  // namespace strandlab::io

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "strandlab/io/case.hpp"
 #include "strandlab/io/case_write.hpp"
@@ -40,12 +42,17 @@ class RunFolder {
 
   bool finished(Step step) const;
   void set_finished(Step step);
+  // Tables and panels of a finished step of this case that are no longer in the folder, by name.
+  std::vector<std::string> missing(Step step, const Case& c) const;
+  // The steps from `first` on are undone and what they left is removed. A step does this to the page before it changes
+  // what the page shows, so that no page is ever taken for that of other results.
+  void forget(Step first);
 
  private:
   void refuse_foreign_folder() const;
   void refuse_other_case(const Case& c) const;
   void refuse_unpressed(bool exists, const Case& c) const;
-  void forget_steps(Step first);
+  void erase_steps(Step first);
   void remove_leftovers() const;
   void write_case(const Case& c);
 
@@ -53,5 +60,14 @@ class RunFolder {
   nlohmann::json record_;
   int lock_ = -1;  // descriptor of the locked folder
 };
+
+// run.json of a run folder. Throws InputError, naming it, for a folder without one and for one that is no record of a
+// run.
+nlohmann::json read_run_record(const std::filesystem::path& folder);
+
+// Lets `write` make the page of a run folder and records that it shows the results that are there; no run changes them
+// meanwhile. Throws InputError for a folder that holds no run, or where a run is under way; what `write` throws passes
+// through.
+void write_page(const std::filesystem::path& folder, const std::function<void()>& write);
 
 }  // namespace strandlab::io

@@ -14,6 +14,7 @@
 #include "strandlab/core/text.hpp"
 #include "strandlab/io/case.hpp"
 #include "strandlab/io/checkpoint.hpp"
+#include "strandlab/io/run_folder.hpp"
 #include "strandlab/report/frames.hpp"
 #include "strandlab/report/morphology.hpp"
 #include "strandlab/vtest/vtest.hpp"
@@ -37,7 +38,8 @@ std::optional<std::string> read_text(const fs::path& file) {
 
 std::string needed_text(const fs::path& file) {
   auto text = read_text(file);
-  if (!text) throw InputError(fmt::format("{}: cannot be read", file.string()));
+  if (!text)
+    throw InputError(fmt::format("{}: cannot be read; strandlab run makes a missing result again", file.string()));
   return *text;
 }
 
@@ -62,7 +64,26 @@ Json describe(const wood::Material& m) {
           {"hardening_K_MPa", m.hardening_K}};
 }
 
-Json describe(const io::Case& c) {
+// Materials of the case's kinds, and those that strands of a mat file name beside them.
+std::vector<wood::Material> materials_of(const io::Case& c, const Json& record) {
+  std::vector<wood::Material> materials, known = wood::library();
+  const auto add = [&materials](const wood::Material& m) {
+    const auto same = [&](const wood::Material& other) { return other.name == m.name; };
+    if (std::none_of(materials.begin(), materials.end(), same)) materials.push_back(m);
+  };
+  for (const auto& kind : io::strand_kinds(c)) add(kind.material);
+  for (const auto& kind : io::kinds_and_materials(c)) known.insert(known.begin(), kind.material);
+  const Json::json_pointer used("/mat/weight_fraction_by_material");
+  if (!record.contains(used)) return materials;
+  for (const auto& [name, fraction] : record[used].items()) {
+    const auto m = std::find_if(known.begin(), known.end(), [&](const auto& wood) { return wood.name == name; });
+    if (m != known.end()) add(*m);
+  }
+  return materials;
+}
+
+// Sizes are the mat's, not the case's: a mat file has its own.
+Json describe(const io::Case& c, const Json& record) {
   Json kinds = Json::array(), materials = Json::array();
   const auto strand_kinds = io::strand_kinds(c);
   for (std::size_t i = 0; i < strand_kinds.size(); ++i) {
@@ -73,12 +94,9 @@ Json describe(const io::Case& c) {
                      {"angle_spread_deg", c.kinds[i].angle_spread_deg},
                      {"yield_factor", kind.yield_factor},
                      {"stiffness_factor", kind.stiffness_factor}});
-    const auto known = [&](const Json& m) { return m.at("name") == kind.material.name; };
-    if (std::none_of(materials.begin(), materials.end(), known)) materials.push_back(describe(kind.material));
   }
   return {{"name", as_text(c.name)},
-          {"length_mm", c.length_mm},
-          {"layer_thickness_mm", c.layer_thickness_mm},
+          {"mat_file", as_text(c.mat_file)},
           {"seed", std::to_string(c.seed)},  // a number of the page is exact to 2^53 only
           {"kinds", kinds},
           {"materials", materials},
@@ -91,8 +109,8 @@ Json describe(const io::Case& c) {
 }
 
 bool finished(const Json& record, const char* step) {
-  const auto steps = record.value("steps", Json::object());
-  return steps.is_object() && steps.contains(step) && steps[step].is_object() && steps[step].value("finished", false);
+  const auto& steps = record.at("steps");
+  return steps.contains(step) && steps[step].value("finished", false);
 }
 
 // What the steps said of their numbers, warnings first.
@@ -141,12 +159,10 @@ std::vector<Panel<2>> read_frames(const fs::path& run_folder) {
 }
 
 Json report_data(const fs::path& run_folder) {
-  if (!fs::exists(run_folder / "run.json")) {
-    throw InputError(fmt::format("{}: holds no strandlab run (no run.json)", run_folder.string()));
-  }
-  const auto record = read_object(run_folder / "run.json", "the record of a strandlab run");
+  auto record = io::read_run_record(run_folder);
+  record["steps"].erase("page");  // whether there was a page before changes nothing in this one
   const auto c = read_run_case(run_folder);
-  Json run{{"case", describe(c)},
+  Json run{{"case", describe(c, record)},
            {"case_text", needed_text(run_folder / "case.toml")},
            {"record", record},
            {"mat", nullptr},

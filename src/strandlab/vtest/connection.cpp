@@ -1,5 +1,6 @@
 #include "strandlab/vtest/connection.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "strandlab/vtest/window.hpp"
@@ -53,6 +54,46 @@ Connection connect(const Panel<2>& panel, const std::vector<glue::GluePoint<2>>&
     }
   }
   return connection;
+}
+
+bool can_connect(const Panel<2>& mat, double compaction) {
+  struct Reach {
+    double low, high;  // mm, in plan
+    int row;
+    std::size_t strand;
+  };
+  const auto n = mat.strands.size();
+  std::vector<Reach> reaches;
+  std::vector<char> left(n, 0), right(n, 0);
+  for (std::size_t s = 0; s < n; ++s) {
+    const auto& strand = mat.strands[s];
+    const double length = strand.points[0] * strand.spacing[0];
+    const double x0 = strand.x.front()[0] - 0.5 * strand.spacing[0];
+    const double more = length * compaction / (1 - compaction) + mat.initial_thickness_mm;
+    reaches.push_back({x0 - more, x0 + length + more, strand.row, s});
+    left[s] = (s == 0 || mat.strands[s - 1].row != strand.row) && reaches[s].low <= 0;
+    right[s] = (s + 1 == n || mat.strands[s + 1].row != strand.row) && reaches[s].high >= mat.length_mm;
+  }
+  std::sort(reaches.begin(), reaches.end(), [](const Reach& a, const Reach& b) { return a.low < b.low; });
+  std::vector<int> parent(n);
+  std::iota(parent.begin(), parent.end(), 0);
+  std::vector<Reach> open;  // those that reach as far as the one at hand begins
+  for (const auto& reach : reaches) {
+    std::erase_if(open, [&](const Reach& other) { return other.high < reach.low; });
+    for (const auto& other : open) {
+      if (other.row != reach.row)
+        parent[root(parent, static_cast<int>(other.strand))] = root(parent, static_cast<int>(reach.strand));
+    }
+    open.push_back(reach);
+  }
+  std::vector<char> from_left(n, 0);
+  for (std::size_t s = 0; s < n; ++s) {
+    if (left[s]) from_left[root(parent, static_cast<int>(s))] = 1;
+  }
+  for (std::size_t s = 0; s < n; ++s) {
+    if (right[s] && from_left[root(parent, static_cast<int>(s))]) return true;
+  }
+  return false;
 }
 
 }  // namespace strandlab::vtest

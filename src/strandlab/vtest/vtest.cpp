@@ -399,6 +399,17 @@ void check(const Panel<2>& panel, const Options& options) {
   }
 }
 
+void check_ends(const Panel<2>& mat, double compaction) {
+  if (can_connect(mat, compaction)) return;
+  throw InputError(
+      fmt::format("nothing to test in this mat: no glue can connect x = 0 with x = {:g} mm, as strands of one row do "
+                  "not bond to one "
+                  "another and no strands of other rows bridge their gaps. Add rows (mat.rows, or those of the mat "
+                  "file), or strands "
+                  "without gaps (kinds.NAME.length_mm = 0 and gap_mm = 0); strandlab press presses the mat as it is",
+                  mat.length_mm));
+}
+
 Result measure(const Panel<2>& panel, const Options& options) {
   check(panel, options);
   check_span(panel, options);

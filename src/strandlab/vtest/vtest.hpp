@@ -64,6 +64,10 @@ struct Result {
 // Refuses options that no panel of this mat could be tested with, before it is pressed. Throws InputError.
 void check(const Panel<2>& mat, const Options& options);
 
+// Refuses a mat between rollers of which glue can connect the two ends at no compaction up to this one: there would be
+// nothing to test. Throws InputError with the remedies.
+void check_ends(const Panel<2>& mat, double compaction);
+
 // Moduli of the panel, frozen as it lies between the platens: small strain, linear, plane strain, material axes as
 // pressed; locked-in stress, geometric stiffness and springback are ignored.
 // Strands that free sides let beyond the end planes x = 0 and x = L are cut there, with a warning.

@@ -28,9 +28,10 @@ std::string refusal(const std::filesystem::path& folder, const Case& c, double b
 void make_finished(const std::filesystem::path& folder, const Case& c) {
   RunFolder run(folder, c, Step::kMat, false, kSmall);
   std::filesystem::create_directory(run.file("panels"));
-  for (const auto* name : {"mat.json", "press.csv", "panels/panel_0.h5", "moduli.csv", "theory.csv", "notes.txt"})
+  for (const auto* name :
+       {"mat.json", "press.csv", "panels/panel_0.h5", "moduli.csv", "theory.csv", "report.html", "notes.txt"})
     put(run.file(name), "x");
-  for (const auto step : {Step::kMat, Step::kPress, Step::kTest}) run.set_finished(step);
+  for (const auto step : {Step::kMat, Step::kPress, Step::kTest, Step::kPage}) run.set_finished(step);
 }
 
 TEST(RunFolder, KeepsResultsOfTheSameCase) {
@@ -121,6 +122,51 @@ TEST(RunFolder, RefusesAFolderThatIsNotARun) {
   EXPECT_NE(refusal(folder.path(), Case()).find("run.json"), std::string::npos);
 }
 
+// Whatever stands in run.json, and however deep: at once, and in our words.
+TEST(RunFolder, RefusesARecordThatIsNone) {
+  const TemporaryFolder folder;
+  const std::string deep(200000, '['), flat(deep.size(), ']');
+  for (const auto& text : {std::string(R"({"strandlab": "1", "case": [1, 2], "steps": {}})"),
+                           std::string(R"({"strandlab": "1", "case": [], "steps": {"mat": 1}})"),
+                           std::string(R"({"strandlab": "1", "case": [], "steps": {"mat": {"finished": "yes"}}})"),
+                           R"({"strandlab": "1", "case": [], "steps": {"mat": {"x": )" + deep + flat + "}}}"}) {
+    put(folder / "run.json", text);
+    EXPECT_NE(refusal(folder.path(), Case()).find("run.json: not the record"), std::string::npos) << text.substr(0, 80);
+  }
+  std::filesystem::remove(folder / "run.json");
+  std::filesystem::create_directory(folder / "run.json");
+  EXPECT_NE(refusal(folder.path(), Case()).find("run.json: not the record"), std::string::npos);
+}
+
+TEST(RunFolder, RefusesANameThatCannotBe) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink(folder / "loop", folder / "loop");
+  for (const auto& name : {std::string("loop"), std::string("loop/run"), std::string(5000, 'x')})
+    EXPECT_NE(refusal(folder / name, Case()).find("cannot be a run folder"), std::string::npos) << name.substr(0, 20);
+}
+
+TEST(RunFolder, SaysWhatIsMissing) {
+  const TemporaryFolder folder;
+  const auto c = with("press.compactions=[0, .1]");
+  make_finished(folder / "run", c);
+  const RunFolder run(folder / "run", c, Step::kMat, false, kSmall);
+  EXPECT_EQ(run.missing(Step::kMat, c), std::vector<std::string>{});
+  EXPECT_EQ(run.missing(Step::kPress, c), (std::vector<std::string>{"morphology.csv", "histograms.csv", "profile.csv",
+                                                                    "profile_summary.csv", "panels/panel_0.1.h5"}));
+  std::filesystem::remove(run.file("moduli.csv"));
+  EXPECT_EQ(run.missing(Step::kTest, c), std::vector<std::string>{"moduli.csv"});
+}
+
+TEST(RunFolder, RemovesWhatAKillLeftHalfWritten) {
+  const TemporaryFolder folder;
+  make_finished(folder / "run", Case());
+  for (const auto* name : {"run/report.html.4711-2.tmp", "run/panels/panel_0.h5.4711-1.tmp"}) put(folder / name, "x");
+  const RunFolder run(folder / "run", Case(), Step::kMat, false, kSmall);
+  EXPECT_FALSE(std::filesystem::exists(run.file("report.html.4711-2.tmp")));
+  EXPECT_FALSE(std::filesystem::exists(run.file("panels/panel_0.h5.4711-1.tmp")));
+  EXPECT_TRUE(std::filesystem::exists(run.file("notes.txt")));
+}
+
 // A kill between making the folder and its first file leaves at most a temporary file.
 TEST(RunFolder, TakesAnEmptyFolder) {
   const TemporaryFolder folder;
@@ -147,6 +193,57 @@ TEST(RunFolder, RefusesAFolderInUse) {
   const TemporaryFolder folder;
   const RunFolder first(folder / "run", Case(), Step::kMat, false, kSmall);
   EXPECT_NE(refusal(folder / "run", Case()).find("another strandlab"), std::string::npos);
+}
+
+// The page shows the results of all steps: one that is undone takes the page with it, also where it was undone in the
+// folder that is open.
+TEST(RunFolder, ThePageGoesWithTheResultsItShows) {
+  const TemporaryFolder folder;
+  for (const bool force : {false, true}) {
+    make_finished(folder / "run", Case());
+    RunFolder run(folder / "run", Case(), Step::kTest, force, kSmall);
+    EXPECT_EQ(std::filesystem::exists(run.file("report.html")), !force);
+    run.forget(Step::kPage);
+    EXPECT_FALSE(run.finished(Step::kPage));
+    EXPECT_FALSE(std::filesystem::exists(run.file("report.html")));
+    EXPECT_EQ(run.finished(Step::kTest), !force);
+  }
+}
+
+// A kill between the last test and the page, or a folder of a version that did not record its page.
+TEST(RunFolder, APageWithoutARecordIsNoResult) {
+  const TemporaryFolder folder;
+  make_finished(folder / "run", Case());
+  auto record = nlohmann::json::parse(test::contents(folder / "run/run.json"));
+  record["steps"].erase("page");
+  put(folder / "run/run.json", record.dump());
+  const RunFolder run(folder / "run", Case(), Step::kMat, false, kSmall);
+  EXPECT_TRUE(run.finished(Step::kTest));
+  EXPECT_FALSE(run.finished(Step::kPage));
+  EXPECT_FALSE(std::filesystem::exists(run.file("report.html")));
+}
+
+TEST(RunFolder, RecordsAPageThatIsMadeByItself) {
+  const TemporaryFolder folder;
+  make_finished(folder / "run", Case());
+  RunFolder(folder / "run", Case(), Step::kMat, false, kSmall).forget(Step::kPage);
+  write_page(folder / "run", [&] { put(folder / "run/report.html", "page"); });
+  const RunFolder run(folder / "run", Case(), Step::kMat, false, kSmall);
+  EXPECT_TRUE(run.finished(Step::kPage));
+  EXPECT_EQ(test::contents(run.file("report.html")), "page");
+  const auto never = [] { FAIL() << "wrote a page"; };
+  EXPECT_NE(message_of<InputError>([&] { write_page(folder / "run", never); }).find("another strandlab"),
+            std::string::npos);
+  EXPECT_NE(message_of<InputError>([&] { write_page(folder / "none", never); }).find("no run.json"), std::string::npos);
+}
+
+// Several pages may be made at once: none shuts out another.
+TEST(RunFolder, PagesAreMadeAtTheSameTime) {
+  const TemporaryFolder folder;
+  make_finished(folder / "run", Case());
+  bool inner = false;
+  write_page(folder / "run", [&] { write_page(folder / "run", [&] { inner = true; }); });
+  EXPECT_TRUE(inner);
 }
 
 // Files of a pressing that was forgotten by --force just before a kill must not be taken for results.
