@@ -95,6 +95,7 @@ Json describe(const io::Case& c, const Json& record) {
                      {"yield_factor", kind.yield_factor},
                      {"stiffness_factor", kind.stiffness_factor}});
   }
+  for (const auto& material : materials_of(c, record)) materials.push_back(describe(material));
   return {{"name", as_text(c.name)},
           {"mat_file", as_text(c.mat_file)},
           {"seed", std::to_string(c.seed)},  // a number of the page is exact to 2^53 only

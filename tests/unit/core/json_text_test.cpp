@@ -27,8 +27,8 @@ std::string nested(int depth, const std::string& open, const std::string& close)
 
 TEST(JsonText, IsReadUpToTheDeepestLevel) {
   EXPECT_EQ(json_from_text(nested(kDeepestJson, "[", "]"), "a.json", "a mat file").size(), 1U);
-  EXPECT_EQ(refusal("\n" + nested(kDeepestJson + 1, "[", "]")),
-            "a.json: line 2: not a mat file: lists and objects within each other more than 100 deep");
+  EXPECT_EQ(refusal(nested(kDeepestJson + 1, "\n[", "]")),
+            "a.json: line 102: not a mat file: lists and objects within each other more than 100 deep");
 }
 
 // 60,000 levels ended the program by a signal: what copies and writes JSON calls itself for every level.
