@@ -363,13 +363,6 @@ void check_value(const Key& key, const Case& c, const Value& value, const toml::
   const auto rule = allowed(key, c);
   check_numbers(key.range, rule, value, node, opening);
   const auto texts = texts_of(value);
-  const auto is_control = [](unsigned char ch) { return ch < 0x20 || ch == 0x7F; };
-  if (key.names_file && std::any_of(texts[0].begin(), texts[0].end(), is_control)) {
-    throw InputError(
-        fmt::format("{}: holds a control character: in double quotes \\t is a tab and \\n a new line; write / in file "
-                    "names, or single quotes: 'C:\\mats\\a.json'",
-                    opening));
-  }
   if (!key.choices) return;
   const auto known = key.choices(c);
   for (std::size_t i = 0; i < texts.size(); ++i) {
@@ -384,6 +377,17 @@ void check_value(const Key& key, const Case& c, const Value& value, const toml::
 std::string opening_of(const Given& given, const Key& key) {
   return fmt::format("{}: {} = {}{}", given.where, name_of(given.path), shortened(as_given(*given.node)),
                      key.unit.empty() ? "" : " " + key.unit);
+}
+
+// The same for a file that may prove unreadable: a control character in its name most likely was a backslash.
+std::string opening_of_file(const Given& given, const Key& key) {
+  const auto opening = opening_of(given, key);
+  const auto* text = given.node->as_string();
+  const auto is_control = [](unsigned char ch) { return ch < 0x20 || ch == 0x7F; };
+  if (!text || std::none_of(text->get().begin(), text->get().end(), is_control)) return opening;
+  return opening +
+         " (in double quotes \\t is a tab and \\n a new line; write / in file names, or single quotes: "
+         "'C:\\mats\\a.json')";
 }
 
 [[noreturn]] void throw_wrong_type(const Given& given, const Value& like, const std::string& opening) {
@@ -582,7 +586,7 @@ Case case_from_sources(Case c, const std::vector<Source>& sources) {
       if (!key->names_file) continue;
       const bool is_mat = key->path == "mat.file";
       (is_mat ? mat_folder : bondline_folder) = source.folder;
-      (is_mat ? c.places.mat_file : c.places.bondline_file) = opening_of(given[i], *key);
+      (is_mat ? c.places.mat_file : c.places.bondline_file) = opening_of_file(given[i], *key);
     }
   }
   for (const auto& g : given) {
