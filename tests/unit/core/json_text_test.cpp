@@ -1,6 +1,7 @@
 // JSON of files: what anyone may write there ends in a message, not in an exhausted stack.
 #include "strandlab/core/json_text.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -27,21 +28,22 @@ std::string nested(int depth, const std::string& open, const std::string& close)
 
 TEST(JsonText, IsReadUpToTheDeepestLevel) {
   EXPECT_EQ(json_from_text(nested(kDeepestJson, "[", "]"), "a.json", "a mat file").size(), 1U);
-  EXPECT_EQ(refusal("\n" + nested(kDeepestJson + 1, "[", "]")),
+  EXPECT_EQ(refusal(std::string("\n").append(nested(kDeepestJson + 1, "[", "]"))),
             "a.json: line 2: not a mat file: lists and objects within each other more than 100 deep");
 }
 
 // 60,000 levels ended the program by a signal: what copies and writes JSON calls itself for every level.
 TEST(JsonText, ThousandsOfLevelsAreRefused) {
   EXPECT_NE(refusal(nested(60000, "[", "]")).find("more than 100 deep"), std::string::npos);
-  EXPECT_NE(refusal("{\"note\":" + nested(60000, "{\"a\":[", "]}") + "}").find("more than 100 deep"),
+  EXPECT_NE(refusal(std::string("{\"note\":").append(nested(60000, "{\"a\":[", "]}"))).find("more than 100 deep"),
             std::string::npos);
 }
 
 // Brackets in a text are no levels, also after a quotation mark that is part of it.
 TEST(JsonText, BracketsInTextsAreText) {
-  const auto text = "[\"\\\"" + std::string(500, '[') + "\"]";
-  EXPECT_EQ(json_from_text(text, "a.json", "a mat file").at(0), "\"" + std::string(500, '['));
+  const std::string brackets(500, '[');
+  const auto text = fmt::format("[\"\\\"{}\"]", brackets);
+  EXPECT_EQ(json_from_text(text, "a.json", "a mat file").at(0), fmt::format("\"{}", brackets));
 }
 
 TEST(JsonText, FaultsNameTheirLine) {
