@@ -141,7 +141,8 @@ void write_profiles(Journey& journey, const std::vector<Panel<2>>& panels, Conso
   folder.record(io::Step::kPress)["density_profiles"] = profile_summaries(profiles);
 }
 
-// Everything that follows from the panels and the record of the pressing.
+// Everything that follows from the panels and the records of the pressing; without records, what follows from the
+// panels.
 void write_report(Journey& journey, const std::vector<press::Record>& records, const std::vector<std::string>& warnings,
                   Console& console) {
   const auto& folder = journey.folder;
@@ -157,12 +158,14 @@ void write_report(Journey& journey, const std::vector<press::Record>& records, c
   report::morphology_table(shapes).write(folder.file("morphology.csv"));
   report::histogram_table(shapes).write(folder.file("histograms.csv"));
   write_profiles(journey, panels, console);
-  auto findings = report::pressing_findings(records, warnings);
-  const auto shape = report::shape_findings(shapes);
-  findings.insert(findings.end(), shape.begin(), shape.end());
-  journey.folder.record(io::Step::kPress)["findings"] = report::to_json(findings);
   draw_pictures(journey, panels);
-  if (!records.empty()) warn_if(console, report::plot_stress(records, folder.file("pictures") / "stress.png"));
+  if (!records.empty()) {
+    auto findings = report::pressing_findings(records, warnings);
+    const auto shape = report::shape_findings(shapes);
+    findings.insert(findings.end(), shape.begin(), shape.end());
+    journey.folder.record(io::Step::kPress)["findings"] = report::to_json(findings);
+    warn_if(console, report::plot_stress(records, folder.file("pictures") / "stress.png"));
+  }
   warn_if(console, report::plot_grain_angles(shapes, folder.file("pictures") / "grain_angles.png"));
   warn_if(console, report::plot_thickness_strains(shapes, folder.file("pictures") / "thickness_strains.png"));
 }
@@ -206,7 +209,8 @@ void restore_tables(Journey& journey, Console& console) {
   folder.forget(io::Step::kPage);
   make_folders(folder);
   if (!records.empty()) report::press_table(records).write(folder.file("press.csv"));
-  write_report(journey, records, console);
+  write_report(journey, records, folder.record(io::Step::kPress).value("warnings", std::vector<std::string>{}),
+               console);
   folder.save();
 }
 

@@ -15,6 +15,7 @@
 #include "strandlab/report/findings.hpp"
 #include "strandlab/report/plots.hpp"
 #include "strandlab/report/result_tables.hpp"
+#include "strandlab/statics/cholesky.hpp"
 #include "strandlab/vtest/vtest.hpp"
 #include "theory_curves.hpp"
 #include "theory_rows.hpp"
@@ -105,6 +106,8 @@ Json gap_sensitivity(const Panel<2>& panel, vtest::Options options, double compa
         "test: compaction {}: glue.max_gap_mm = {} changes moduli by at most {:+.1f} % (1/D_t = {}), {} by {:+.1f} %",
         compaction, gap / 2, 100 * s.halved, compliances[0], gap * 2, 100 * s.doubled));
     return {{"compliance_t_mm_per_MPa", compliances[0]}, {"gap_halved", s.halved}, {"gap_doubled", s.doubled}};
+  } catch (const statics::OutOfMemory&) {
+    throw;
   } catch (const std::runtime_error& error) {  // InputError or RunError
     console.warn(fmt::format("compaction {}: with glue.max_gap_mm = {} or {} the panel cannot be tested: {}",
                              compaction, gap / 2, gap * 2, error.what()));
@@ -130,6 +133,8 @@ Json measure_state(const Journey& journey, const Panel<2>& panel, double compact
     result = vtest::measure(panel, journey.c.test);
   } catch (const InputError& error) {
     return not_testable(compaction, error.what(), false, seconds_since(begin), console);
+  } catch (const statics::OutOfMemory&) {
+    throw;  // nothing of the panel's: with more memory the run goes on from here
   } catch (const RunError& error) {
     return not_testable(compaction, error.what(), true, seconds_since(begin), console);
   }

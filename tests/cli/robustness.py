@@ -85,7 +85,7 @@ def address_space():
         check(result.returncode == DONE or refused, f"run under ulimit -v of {limit} MB: exit code {result.returncode}\n{result.stderr}")
         done += result.returncode == DONE
     check(done >= 2, f"only {done} runs finish under the wide limits")
-    check(strandlab("test", "small.toml", "-o", "v200").returncode == DONE, "the run of 200 MB cannot go on with more")
+    check(strandlab("run", "small.toml", "-o", "v200").returncode == DONE, "the run of 200 MB cannot go on with more")
 
 
 def large_mats():

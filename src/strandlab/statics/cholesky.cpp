@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 
-#include "strandlab/core/error.hpp"
-
 extern "C" void openblas_set_num_threads(int);
 extern "C" void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
                        const double* a, const int* lda, const double* beta, double* c, const int* ldc);
@@ -21,7 +19,7 @@ void take_blas_buffer() {
   static const bool taken = [] {
     void* place = ::mmap(nullptr, kBuffer, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (place == MAP_FAILED) {
-      throw RunError(
+      throw OutOfMemory(
           fmt::format("the linear solver needs {} MB of address space for its buffer and more for its factor; "
                       "allow the process more memory (ulimit -v)",
                       kBuffer >> 20));
@@ -99,7 +97,7 @@ Cholesky::Cholesky(const LowerMatrix& matrix) : impl_(std::make_unique<Impl>()) 
   impl_->common.method[0].ordering = CHOLMOD_AMD;
   impl_->factor = cholmod_analyze(&a, &impl_->common);
   if (impl_->factor == nullptr) {
-    throw RunError(fmt::format("the linear solver could not analyse {} unknowns (out of memory)", matrix.size()));
+    throw OutOfMemory(fmt::format("the linear solver could not analyse {} unknowns (out of memory)", matrix.size()));
   }
 }
 
@@ -113,7 +111,7 @@ void Cholesky::factorise(const LowerMatrix& matrix) {
                                impl_->factor->n));
   }
   if (impl_->common.status < CHOLMOD_OK) {
-    throw RunError(fmt::format("the linear solver ran out of memory for {} unknowns", matrix.size()));
+    throw OutOfMemory(fmt::format("the linear solver ran out of memory for {} unknowns", matrix.size()));
   }
 }
 
@@ -126,7 +124,7 @@ std::vector<double> Cholesky::solve(const std::vector<double>& rhs) {
   b.dtype = CHOLMOD_DOUBLE;
   auto& i = *impl_;
   cholmod_solve2(CHOLMOD_A, i.factor, &b, nullptr, &i.solution, nullptr, &i.work_y, &i.work_e, &i.common);
-  if (i.common.status < CHOLMOD_OK) throw RunError("the linear solver ran out of memory");
+  if (i.common.status < CHOLMOD_OK) throw OutOfMemory("the linear solver ran out of memory");
   const auto* values = static_cast<const double*>(i.solution->x);
   return {values, values + rhs.size()};
 }

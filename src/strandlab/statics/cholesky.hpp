@@ -4,6 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "strandlab/core/error.hpp"
+
 namespace strandlab::statics {
 
 // Lower triangle of a symmetric matrix by columns, rows ascending.
@@ -17,19 +19,26 @@ struct LowerMatrix {
 // y = A x
 std::vector<double> multiply(const LowerMatrix& a, const std::vector<double>& x);
 
+// The machine, or a limit on the process, has too little memory: it says nothing about the panel.
+struct OutOfMemory : RunError {
+  using RunError::RunError;
+};
+
 class Cholesky {
  public:
-  // Orders and analyses the pattern of `matrix`. Pins OpenBLAS to one thread: fronts are too small to share.
+  // Orders and analyses the pattern of `matrix`. Pins OpenBLAS to one thread: fronts are too small to share. Throws
+  // OutOfMemory.
   explicit Cholesky(const LowerMatrix& matrix);
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;
 
-  // Factorises a matrix with the pattern that was analysed. Throws RunError when it is not positive definite or memory
-  // runs out.
+  // Factorises a matrix with the pattern that was analysed. Throws RunError when it is not positive definite,
+  // OutOfMemory.
   void factorise(const LowerMatrix& matrix);
 
   // Solution for one right-hand side with the last factor; errors are those of the factor, so refine where it matters.
+  // Throws OutOfMemory.
   std::vector<double> solve(const std::vector<double>& rhs);
 
  private:

@@ -1,6 +1,7 @@
 // JSON of files: what anyone may write there ends in a message, not in an exhausted stack.
 #include "strandlab/core/json_text.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -34,14 +35,15 @@ TEST(JsonText, IsReadUpToTheDeepestLevel) {
 // 60,000 levels ended the program by a signal: what copies and writes JSON calls itself for every level.
 TEST(JsonText, ThousandsOfLevelsAreRefused) {
   EXPECT_NE(refusal(nested(60000, "[", "]")).find("more than 100 deep"), std::string::npos);
-  EXPECT_NE(refusal("{\"note\":" + nested(60000, "{\"a\":[", "]}") + "}").find("more than 100 deep"),
+  EXPECT_NE(refusal(std::string("{\"note\":").append(nested(60000, "{\"a\":[", "]}"))).find("more than 100 deep"),
             std::string::npos);
 }
 
 // Brackets in a text are no levels, also after a quotation mark that is part of it.
 TEST(JsonText, BracketsInTextsAreText) {
-  const auto text = "[\"\\\"" + std::string(500, '[') + "\"]";
-  EXPECT_EQ(json_from_text(text, "a.json", "a mat file").at(0), "\"" + std::string(500, '['));
+  const std::string brackets(500, '[');
+  const auto text = fmt::format("[\"\\\"{}\"]", brackets);
+  EXPECT_EQ(json_from_text(text, "a.json", "a mat file").at(0), fmt::format("\"{}", brackets));
 }
 
 TEST(JsonText, FaultsNameTheirLine) {
