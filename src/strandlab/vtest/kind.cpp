@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "strandlab/core/error.hpp"
@@ -43,6 +44,13 @@ Kind kind_from_name(const std::string& name_given) {
     if (name_given == name(kind)) return kind;
   }
   throw InputError("unknown virtual test \"" + name_given + "\", allowed: " + allowed_kinds());
+}
+
+double needed_length_mm(const Options& options, double thickness_mm) {
+  const bool on_supports = std::any_of(options.kinds.begin(), options.kinds.end(), [](Kind kind) {
+    return kind == Kind::kBending3Point || kind == Kind::kBending4Point;
+  });
+  return on_supports ? (options.span_to_thickness + 2) * thickness_mm : 0;
 }
 
 }  // namespace strandlab::vtest
