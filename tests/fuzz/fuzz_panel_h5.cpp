@@ -50,8 +50,28 @@ class Bytes {
   std::string_view bytes_;
 };
 
+// A folder that goes away with the process: HDF5 edits files with names only.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "strandlab_fuzz_XXXXXX").string();
+    fuzz::require(::mkdtemp(name.data()) != nullptr, "there is a temporary folder");
+    path_ = name;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::filesystem::path file() const { return path_ / "checkpoint.h5"; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 // Two strands of two points each, as a checkpoint: it also reads as a panel.
-std::string good_file() {
+std::string good_file(const std::filesystem::path& file) {
   press::Checkpoint<2> checkpoint;
   checkpoint.panel.length_mm = 1;
   checkpoint.panel.initial_thickness_mm = checkpoint.panel.top_mm = 1.6;
@@ -71,14 +91,9 @@ std::string good_file() {
     checkpoint.panel.strands.push_back(strand);
   }
   checkpoint.records.resize(2);
-  std::string folder = (std::filesystem::temp_directory_path() / "strandlab_fuzz_XXXXXX").string();
-  fuzz::require(::mkdtemp(folder.data()) != nullptr, "there is a temporary folder");
-  const auto file = std::filesystem::path(folder) / "checkpoint.h5";
   io::write_checkpoint(checkpoint, "case", file);
   std::ifstream in(file, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-  std::filesystem::remove_all(folder);
-  return bytes;
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 // A file open for edits. Edits that HDF5 itself refuses change nothing.
@@ -199,17 +214,19 @@ void check(const Panel<2>& panel) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const std::string good = good_file();
-  const fuzz::MemoryFile file(good);
+  static const Folder folder;
+  static const std::string good = good_file(folder.file());
+  const auto file = folder.file();
+  std::ofstream(file, std::ios::binary) << good;
   Bytes in(fuzz::text_of(data, size));
   const bool edited = !in.empty();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   {
-    EditedFile edits(file.path());
+    EditedFile edits(file);
     for (int edit = 0; edit < 8 && !in.empty(); ++edit) edits.edit(in);
   }
-  const bool panel_read = fuzz::takes([&] { check(io::read_panel<2>(file.path(), "")); });
-  const bool checkpoint_read = fuzz::takes([&] { check(io::read_checkpoint<2>(file.path(), "").panel); });
+  const bool panel_read = fuzz::takes([&] { check(io::read_panel<2>(file, "")); });
+  const bool checkpoint_read = fuzz::takes([&] { check(io::read_checkpoint<2>(file, "").panel); });
   fuzz::require(edited || (panel_read && checkpoint_read), "the good file can be read");
   return 0;
 }
