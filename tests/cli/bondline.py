@@ -56,6 +56,15 @@ def spreadsheet():
     check(groups["high"]["excluded"] == "1", "excluded specimens are counted")
 
 
+def percent():
+    """gnuplot takes the labels of ticks for formats: a group may still be called "PF 25 %"."""
+    made = strandlab("bondline", "--example").stdout.replace("PF-25,", "PF 25 %,")
+    pathlib.Path("percent.csv").write_text(made, encoding="utf-8")
+    result = strandlab("bondline", "percent.csv", "-o", "percent")
+    check(result.returncode == DONE and not result.stderr, f"groups with a per cent sign: {result.stderr}")
+    check(pathlib.Path("percent/means.png").exists(), "means.png of groups with a per cent sign")
+
+
 def records():
     result = strandlab("bondline", DATA / "records.csv", "--records", DATA / "records", "-o", "slopes")
     check(result.returncode == DONE, f"records: {result.stderr}")
@@ -144,6 +153,7 @@ with scratch():
     panel_case()
     spreadsheet()
     records()
+    percent()
     options()
     bad_input()
     theory()

@@ -21,6 +21,13 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
+// The same for the label of a tick, which gnuplot takes for a number's format: "PF 25 %" has no letter behind its %.
+std::string tick_label(const std::string& text) {
+  std::string result;
+  for (char c : escaped(text)) result += c == '%' ? "%%" : std::string(1, c);
+  return result;
+}
+
 std::string file_name(const std::string& group) {
   std::string name;
   for (char c : group) {
@@ -81,7 +88,7 @@ std::string means_script(const Analysis& analysis) {
     const Group& group = analysis.groups[i];
     const auto members = included(analysis, group);
     const statistics::Summary& s = group.compliance_t;
-    ticks += fmt::format("{}\"{}\" {}", ticks.empty() ? "" : ", ", escaped(group.name), i);
+    ticks += fmt::format("{}\"{}\" {}", ticks.empty() ? "" : ", ", tick_label(group.name), i);
     if (s.n >= 2) means += fmt::format("{} {:.8g} {:.8g} {:.8g}\n", i, s.mean, s.low, s.high);
     for (std::size_t j = 0; j < members.size(); ++j) {
       const double spread = 0.3 * (static_cast<double>(j) + 0.5) / static_cast<double>(members.size()) - 0.15;

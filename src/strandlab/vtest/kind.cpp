@@ -51,4 +51,11 @@ Kind kind_from_name(const std::string& name_given) {
   throw InputError("unknown virtual test \"" + name_given + "\", allowed: " + allowed_kinds());
 }
 
+double needed_length_mm(const Options& options, double thickness_mm) {
+  const bool on_supports = std::any_of(options.kinds.begin(), options.kinds.end(), [](Kind kind) {
+    return kind == Kind::kBending3Point || kind == Kind::kBending4Point;
+  });
+  return on_supports ? (options.span_to_thickness + 2) * thickness_mm : 0;
+}
+
 }  // namespace strandlab::vtest

@@ -453,10 +453,6 @@ Result measure(const Panel<2>& panel, const Options& options) {
   return result;
 }
 
-double needed_length_mm(const Options& options, double thickness_mm) {
-  return on_supports(options) ? (options.span_to_thickness + 2) * thickness_mm : 0;
-}
-
 GapSensitivity gap_sensitivity(const Panel<2>& panel, const Options& options) {
   const auto usual = measure(panel, options);
   const auto largest_change = [&](double factor) {
