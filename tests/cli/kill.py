@@ -11,7 +11,7 @@ import subprocess
 import sys
 import time
 
-from program import DONE, PROGRAM, SMALL_CASE, SOURCE, check, finish, scratch, strandlab
+from program import DONE, PROGRAM, SMALL_CASE, check, finish, scratch, strandlab
 
 CASE = SMALL_CASE + """[run]
 checkpoint_interval_s = 0.02
@@ -125,14 +125,10 @@ def compare(folder, undisturbed, count):
     check(not different, f"files that differ from an undisturbed run's after kills: {', '.join(different)}")
 
 
-def output_of(*command):
-    return subprocess.run(command, cwd=SOURCE, capture_output=True, text=True, check=True).stdout.strip()
-
-
 def write_result(file, count, seed):
     result = {"kills": count.kills(), "at_random_moments": count.random_moments, "at_files": dict(sorted(count.files.items())),
               "runs": count.runs, "runs_that_differ": count.different, "seed": seed, "date": time.strftime("%Y-%m-%d", time.gmtime()),
-              "commit": output_of("git", "rev-parse", "--short", "HEAD")}
+              "commit": strandlab("--version").stdout.split("(")[-1].rstrip(")\n")}
     pathlib.Path(file).write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
 
 
