@@ -48,7 +48,9 @@ TEST_F(CaseBondline, WhatDoesNotFitIsNamed) {
             std::string::npos);
   const auto missing = message("from_bondline = \"none.json\"\ngroup = \"PF-25\"");
   EXPECT_NE(missing.find("panel.toml:2: glue.from_bondline = \"none.json\": "), std::string::npos) << missing;
-  EXPECT_NE(missing.find("none.json: cannot be read: No such file"), std::string::npos) << missing;
+  EXPECT_NE(missing.find("none.json: cannot be read as a result of 'strandlab bondline': No such file"),
+            std::string::npos)
+      << missing;
   const auto backslash = message("from_bondline = \"C:\\table.json\"\ngroup = \"PF-25\"");  // a tab to TOML
   EXPECT_NE(backslash.find("or single quotes"), std::string::npos) << backslash;
   EXPECT_NE(message("from_bondline = \"dls.json\"").find("needs glue.group"), std::string::npos);

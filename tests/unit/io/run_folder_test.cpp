@@ -131,11 +131,12 @@ TEST(RunFolder, RefusesARecordThatIsNone) {
                            std::string(R"({"strandlab": "1", "case": [], "steps": {"mat": {"finished": "yes"}}})"),
                            R"({"strandlab": "1", "case": [], "steps": {"mat": {"x": )" + deep + flat + "}}}"}) {
     put(folder / "run.json", text);
-    EXPECT_NE(refusal(folder.path(), Case()).find("run.json: not the record"), std::string::npos) << text.substr(0, 80);
+    EXPECT_NE(refusal(folder.path(), Case()).find("the record of a strandlab run"), std::string::npos)
+        << text.substr(0, 80);
   }
   std::filesystem::remove(folder / "run.json");
   std::filesystem::create_directory(folder / "run.json");
-  EXPECT_NE(refusal(folder.path(), Case()).find("run.json: not the record"), std::string::npos);
+  EXPECT_NE(refusal(folder.path(), Case()).find("the record of a strandlab run"), std::string::npos);
 }
 
 TEST(RunFolder, RefusesANameThatCannotBe) {
