@@ -20,6 +20,8 @@ def usage():
     expect_bad_input(["check", "osb.toml", "other.toml"], ["other.toml"])
     expect_bad_input(["init", "obs"], ["no ready case \"obs\"", "did you mean \"osb\"?"])
     expect_bad_input(["check", "none.toml"], ["none.toml: no such case file"])
+    expect_bad_input(["run", SOURCE / "cases" / "osb.toml"], ["STRANDLAB_ISA is \"sse9\"", "this machine has", "generic"],
+                     env=os.environ | {"STRANDLAB_ISA": "sse9"})
     check(strandlab("--version").stdout.startswith("strandlab "), "--version")
     check(strandlab("--help").returncode == DONE, "--help exits with 0")
 

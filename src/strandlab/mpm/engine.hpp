@@ -107,6 +107,8 @@ struct EngineState {
   double time_step_s = 0;
   Platen bottom, top;
   Energies energies;  // totals only; kinetic and elastic follow from the bodies
+  // Nodes of several pairs, over all steps, whose impulses of contact still changed after the last pass.
+  long long unconverged_contacts = 0;
 };
 
 struct Timing {  // s, summed over threads; 0 unless Options::profile
@@ -150,7 +152,8 @@ class Engine {
   double spring_energy() const;                    // mJ, stored in the springs now
   double mean_motion_energy() const;               // mJ, kinetic energy of each body's mean velocity
   Vec<Dim> momentum() const;                       // t mm/s, of the particles
-  double mass() const;                             // t
+  double mass() const;                             // t, of the particles
+  double grid_mass() const;                        // t, on the nodes of the last step, what rollers fold included
   double bottom_force() const, top_force() const;  // N (per mm depth in 2D), pressing positive, of the last step
   Timing timing() const;
   long long particle_steps() const;
