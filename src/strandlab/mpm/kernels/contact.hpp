@@ -174,7 +174,7 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
     const Meeting<Dim>&a = m[pairs[p].a], &b = m[pairs[p].b];
     pairs[p].reduced = 1 / (a.partners * a.inverse_mass + b.partners * b.inverse_mass);
   }
-  double first = 0, last = 0;  // change of velocity in a pass
+  double first = 0, last = 0;                          // change of velocity in a pass
   const int passes = count == 1 ? 1 : kContactPasses;  // for one pair one pass is exact
   for (int k = 0; k < passes; ++k) {
     last = contact_pass<Dim>(m, fields, pairs, count);
