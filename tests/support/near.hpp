@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,12 @@ namespace strandlab::test {
 using testing::PrintToString;
 
 inline std::string component_name(Eigen::Index row, Eigen::Index column, Eigen::Index columns) {
-  return columns == 1 ? "[" + std::to_string(row) + "]"
-                      : "(" + std::to_string(row) + ", " + std::to_string(column) + ")";
+  std::ostringstream name;
+  if (columns == 1)
+    name << '[' << row << ']';
+  else
+    name << '(' << row << ", " << column << ')';
+  return name.str();
 }
 
 // Tells of the component that differs most; false if it differs by `tolerance` or more, or is not a number.
