@@ -18,6 +18,7 @@
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/core/version.hpp"
+#include "strandlab/mpm/dispatch.hpp"
 
 namespace {
 
@@ -66,6 +67,7 @@ int run(int argc, char** argv) {
   strandlab::app::add_profile(app);
   strandlab::app::add_bench(app);
   if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);
+  strandlab::mpm::instruction_set();  // STRANDLAB_ISA is refused before any file is written
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "strandlab/vtest/vtest.hpp"
+
 namespace strandlab::app {
 namespace {
 
@@ -35,14 +37,21 @@ std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows,
     const auto add = [&](const char* model, double modulus) {
       theory.push_back({m.compaction, model, m.test, m.compliance_t_mm_per_MPa, modulus});
     };
-    if (m.test != "tension") {
-      add(kLaminatedBeam, theory::bending_modulus_MPa(rows, m.compaction, off_axis));
-      continue;
+    switch (vtest::kind_from_name(m.test)) {  // no default: the compiler asks for the model of a new test
+      case vtest::Kind::kTension: {
+        add(kRuleOfMixtures, theory::tension_modulus_MPa(rows, m.compaction, off_axis));
+        if (!bridged) break;
+        const double compliance = std::max(m.compliance_t_mm_per_MPa, 0.0);  // as the virtual tests take it
+        add(kShearLag, theory::shear_lag_panel_MPa(rows, {}, compliance, m.compaction, off_axis));
+        break;
+      }
+      case vtest::Kind::kBendingEndRotation:
+      case vtest::Kind::kBendingEndCouple:
+      case vtest::Kind::kBending3Point:
+      case vtest::Kind::kBending4Point:
+        add(kLaminatedBeam, theory::bending_modulus_MPa(rows, m.compaction, off_axis));
+        break;
     }
-    add(kRuleOfMixtures, theory::tension_modulus_MPa(rows, m.compaction, off_axis));
-    if (!bridged) continue;
-    const double compliance = std::max(m.compliance_t_mm_per_MPa, 0.0);  // as the virtual tests take it
-    add(kShearLag, theory::shear_lag_panel_MPa(rows, {}, compliance, m.compaction, off_axis));
   }
   return theory;
 }

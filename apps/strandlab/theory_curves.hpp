@@ -22,7 +22,7 @@ struct TheoryModulus {
 
 // For each simulated modulus those of the models: tension by rule of mixtures and, where rows along the panel have gaps
 // that strands bridge through glue, by shear-lag; bending as a laminated beam. Rows off the grain as the simulated
-// ones, by `off_axis`. Throws as the models.
+// ones, by `off_axis`. Throws as the models, and InputError for a test that is no vtest::Kind.
 std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows,
                                          const std::vector<report::PanelModulus>& moduli, wood::OffAxis off_axis);
 

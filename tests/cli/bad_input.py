@@ -27,6 +27,8 @@ def usage():
                   ["check", "osb.toml", "--set", "press.sides=\x1b[31m"], ["check", "osb.toml", "--set", "x" * 100000]):
         message = expect_bad_input(given, ["\\x1b[31m"] if "x" * 100 not in given[-1] else ["100000"]).stderr
         check("\x1b" not in message and len(message) < 1000, f"{given[-1][:40]!r}: the terminal would obey: {message!r}")
+    expect_bad_input(["run", SOURCE / "cases" / "osb.toml"], ["STRANDLAB_ISA is \"sse9\"", "this machine has", "generic"],
+                     env=os.environ | {"STRANDLAB_ISA": "sse9"})
     check(strandlab("--version").stdout.startswith("strandlab "), "--version")
     check(strandlab("--help").returncode == DONE, "--help exits with 0")
 

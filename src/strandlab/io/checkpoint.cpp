@@ -63,7 +63,7 @@ static_assert(sizeof(press::Record) == kRecordFields.size() * sizeof(double), "a
 
 template <class State, class Visit>
 void visit_engine(State& state, const Visit& visit) {
-  auto& [step, time, time_step, bottom, top, energies] = state;
+  auto& [step, time, time_step, bottom, top, energies, unconverged_contacts] = state;
   auto& [bottom_position, bottom_velocity] = bottom;
   auto& [top_position, top_velocity] = top;
   auto& [kinetic, elastic, plastic, friction, contact, filter, platen_work, external_work] = energies;
@@ -82,6 +82,8 @@ void visit_engine(State& state, const Visit& visit) {
   visit("filter_mJ", Label{"mJ", "lost to the velocity filter"}, filter);
   visit("platen_work_mJ", Label{"mJ", "work of the platens"}, platen_work);
   visit("external_work_mJ", Label{"mJ", "work of tractions and gravity"}, external_work);
+  visit("unconverged_contacts", Label{"1", "nodes whose contact still changed after the last pass, over all steps"},
+        unconverged_contacts);
 }
 
 // Where the press stands, besides its panel, engine and records.
@@ -453,7 +455,9 @@ press::Checkpoint<Dim> read_checkpoint(const std::filesystem::path& file, const 
   press::Checkpoint<Dim> checkpoint;
   checkpoint.panel = read_panel_group<Dim>(in);
   visit_engine(checkpoint.engine, [&](const char* name, const Label&, auto& value) {
-    read_scalar(in, std::string("/engine/") + name, value);
+    const std::string path = std::string("/engine/") + name;
+    if (std::string_view(name) == "unconverged_contacts" && !in.has(path)) return;  // not counted by older versions
+    read_scalar(in, path, value);
   });
   checkpoint.records = read_records(in, "/records");
   const auto pending = read_records(in, "/pending");

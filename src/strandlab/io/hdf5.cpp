@@ -237,6 +237,10 @@ bool Reader::has_attribute(const char* name) const {
   return H5Aexists(file_, name) > 0;
 }
 
+bool Reader::has(const std::string& path) const {
+  return H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0;
+}
+
 std::string Reader::text_attribute(const char* name) const {
   if (!has_attribute(name)) fail(fmt::format("attribute \"{}\" is missing", name));
   const Id attribute(H5Aopen(file_, name, H5P_DEFAULT), H5Aclose);

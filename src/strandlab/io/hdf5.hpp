@@ -85,6 +85,7 @@ class Reader {
  public:
   explicit Reader(std::filesystem::path file);
   bool has_attribute(const char* name) const;
+  bool has(const std::string& path) const;  // whose group exists
   std::string text_attribute(const char* name) const;
   std::int64_t integer_attribute(const char* name) const;
   std::vector<double> doubles(const std::string& path, const Shape& shape) const;

@@ -1,4 +1,13 @@
-// Chooses, once, the build of the kernels that the processor can run.
+// Chooses the build of the kernels: the best one the processor can run, or the one that STRANDLAB_ISA names.
+#include "strandlab/mpm/dispatch.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "strandlab/core/error.hpp"
 #include "strandlab/mpm/kernels.hpp"
 
 namespace strandlab::mpm {
@@ -24,23 +33,37 @@ bool has_avx512() {
 }  // namespace
 #endif
 
+std::vector<std::string> instruction_sets() {
+  std::vector<std::string> sets;
+#ifdef STRANDLAB_X86_BUILDS
+  if (has_avx512()) sets.emplace_back("avx512");
+  if (has_avx2()) sets.emplace_back("avx2");
+#endif
+  sets.emplace_back("generic");
+  return sets;
+}
+
+std::string instruction_set() {
+  const auto sets = instruction_sets();
+  const char* asked = std::getenv(kInstructionSetVariable);
+  if (asked == nullptr || *asked == '\0') return sets.front();
+  if (std::find(sets.begin(), sets.end(), asked) == sets.end()) {
+    throw InputError(
+        fmt::format("{} is \"{}\"; this machine has {}", kInstructionSetVariable, asked, fmt::join(sets, ", ")));
+  }
+  return asked;
+}
+
 template <int Dim>
 const Kernels<Dim>& kernels() {
+  [[maybe_unused]] const auto set = instruction_set();
 #ifdef STRANDLAB_X86_BUILDS
-  if (has_avx512()) return avx512::build<Dim>();
-  if (has_avx2()) return avx2::build<Dim>();
+  if (set == "avx512") return avx512::build<Dim>();
+  if (set == "avx2") return avx2::build<Dim>();
 #endif
   return generic::build<Dim>();
 }
 template const Kernels<2>& kernels<2>();
 template const Kernels<3>& kernels<3>();
-
-const char* instruction_set() {
-#ifdef STRANDLAB_X86_BUILDS
-  if (has_avx512()) return "avx512";
-  if (has_avx2()) return "avx2";
-#endif
-  return "generic";
-}
 
 }  // namespace strandlab::mpm

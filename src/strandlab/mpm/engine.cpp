@@ -9,6 +9,7 @@
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/thread_team.hpp"
 #include "strandlab/mpm/checks.hpp"
+#include "strandlab/mpm/colouring.hpp"
 #include "strandlab/mpm/fields.hpp"
 #include "strandlab/mpm/particles.hpp"
 #include "strandlab/mpm/rollers.hpp"
@@ -130,7 +131,9 @@ struct Engine<Dim>::Impl {
   }
 
   void make_windows() {
-    lay_windows(bodies, frame(), state, fields);
+    const Frame<Dim> f = frame();
+    check_colouring(plan, bodies, f, state);
+    lay_windows(bodies, f, state, fields);
     pencil_results.resize(fields.table.pencils.size());
     views = views_of(bodies, fields);
     drift = {};
@@ -239,6 +242,7 @@ struct Engine<Dim>::Impl {
       total.external_work += r.external_work;
       total.contact_ticks += r.contact_ticks;
       total.overflow |= r.overflow;
+      total.unconverged += r.unconverged;
       for (int k = 0; k < 2; ++k) total.platen_impulse[k] += r.platen_impulse[k];
     }
     if (total.overflow) {
@@ -252,6 +256,7 @@ struct Engine<Dim>::Impl {
     state.energies.platen_work += total.platen_work;
     state.energies.external_work += total.external_work;
     state.energies.filter += total.kinetic_change + total.force_change;
+    state.unconverged_contacts += total.unconverged;
     for (int k = 0; k < 2; ++k) force[k] = total.platen_impulse[k] / f.dt;
     if (options.profile) {
       const double all = (ticks() - start) * (options.threads > 1 ? options.threads : 1);
@@ -383,6 +388,10 @@ Vec<Dim> Engine<Dim>::momentum() const {
 template <int Dim>
 double Engine<Dim>::mass() const {
   return mpm::mass(impl_->bodies);
+}
+template <int Dim>
+double Engine<Dim>::grid_mass() const {
+  return mpm::grid_mass(impl_->fields);
 }
 template <int Dim>
 double Engine<Dim>::bottom_force() const {

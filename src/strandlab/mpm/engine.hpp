@@ -110,6 +110,8 @@ struct EngineState {
   // Totals. The engine leaves kinetic and elastic alone, since they follow from the bodies: a checkpoint holds them as
   // energies() gave them.
   Energies energies;
+  // Nodes of several pairs, over all steps, whose impulses of contact still changed after the last pass.
+  long long unconverged_contacts = 0;
 };
 
 struct Timing {  // s, summed over threads; 0 unless Options::profile
@@ -153,7 +155,8 @@ class Engine {
   double spring_energy() const;                    // mJ, stored in the springs now
   double mean_motion_energy() const;               // mJ, kinetic energy of each body's mean velocity
   Vec<Dim> momentum() const;                       // t mm/s, of the particles
-  double mass() const;                             // t
+  double mass() const;                             // t, of the particles
+  double grid_mass() const;                        // t, on the nodes of the last step, what rollers fold included
   double bottom_force() const, top_force() const;  // N (per mm depth in 2D), pressing positive, of the last step
   Timing timing() const;
   long long particle_steps() const;

@@ -8,11 +8,7 @@
 #include "strandlab/mpm/checks.hpp"
 
 namespace strandlab::mpm {
-namespace {
 
-constexpr double kMaxStretch = 20;  // of a particle; far beyond what wood bears
-
-// Nodes that may become a point's nearest before the windows are made again: first and last per axis.
 template <int Dim>
 std::array<std::array<int, 3>, 2> nearest_nodes(const Vec<Dim>& x, const Frame<Dim>& f) {
   std::array<std::array<int, 3>, 2> range{};
@@ -24,6 +20,12 @@ std::array<std::array<int, 3>, 2> nearest_nodes(const Vec<Dim>& x, const Frame<D
   }
   return range;
 }
+template std::array<std::array<int, 3>, 2> nearest_nodes(const Vec<2>&, const Frame<2>&);
+template std::array<std::array<int, 3>, 2> nearest_nodes(const Vec<3>&, const Frame<3>&);
+
+namespace {
+
+constexpr double kMaxStretch = 20;  // of a particle; far beyond what wood bears
 
 template <int Dim>
 Extents extents_of(const std::vector<Vec<Dim>>& points, const Frame<Dim>& f) {
@@ -203,6 +205,18 @@ void impose_velocity(const Frame<Dim>& f, const std::function<Vec<Dim>(const Vec
       }
     }
   }
+}
+
+double grid_mass(const Fields& fields) {
+  double sum = 0;
+  for (const auto& body : fields.windows) {
+    const WindowStore& w = body.field;
+    for (int p = 0; p < w.pencils(); ++p) {
+      for (int row = w.lo[p]; row <= w.hi[p]; ++row)
+        sum += fields.nodes[static_cast<std::size_t>(w.base[p] + row) * kRecord + 7];  // 0 behind rollers
+    }
+  }
+  return sum;
 }
 
 double fields_per_node(const Fields& fields) {

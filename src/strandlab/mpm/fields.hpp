@@ -22,6 +22,10 @@ struct Fields {
 template <int Dim>
 void check_stretch(const std::vector<Particles<Dim>>& bodies, const EngineState& state);
 
+// Nodes that may become a point's nearest before the windows are laid again: first and last, as {lateral axes, row}.
+template <int Dim>
+std::array<std::array<int, 3>, 2> nearest_nodes(const Vec<Dim>& x, const Frame<Dim>& f);
+
 // Windows around the particles, their mirror images in the platens and the face points where these are now; all records
 // become zero. Throws RunError where a face point is further from its particle than any wood bears.
 template <int Dim>
@@ -35,6 +39,9 @@ std::vector<BodyView<Dim>> views_of(std::vector<Particles<Dim>>& bodies, Fields&
 // In place of the grid update: all nodes take their velocity (mm/s at a point in mm) from outside.
 template <int Dim>
 void impose_velocity(const Frame<Dim>& f, const std::function<Vec<Dim>(const Vec<Dim>&)>& velocity, Fields& fields);
+
+// t, on the bodies' nodes after a grid update (mirror images in platens left out).
+double grid_mass(const Fields& fields);
 
 // Mean number of fields at nodes that carry mass, after a grid update.
 double fields_per_node(const Fields& fields);

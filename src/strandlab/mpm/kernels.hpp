@@ -10,6 +10,7 @@ inline constexpr int kBlock = 8;   // particles per block: one SIMD pack
 inline constexpr int kRecord = 8;  // doubles per node record
 inline constexpr int kMaxFaces = 6;
 inline constexpr int kMaxFields = 24;           // fields meeting at one node
+inline constexpr int kContactPasses = 40;       // over the pairs at a node, at most
 inline constexpr double kLargestStress = 1e30;  // MPa; beyond, and not a number: failed
 
 // Particles live in blocks of eight; a block holds one pack per component, in this order.
@@ -142,7 +143,8 @@ struct PencilResult {
   double force_change;       // mJ, 1/2 dt sum f.dv on the grid, f without the impulses of contact
   double external_work;      // mJ
   double contact_ticks;
-  int overflow;  // more than kMaxFields fields at a node
+  int overflow;     // more than kMaxFields fields at a node
+  int unconverged;  // nodes whose impulses still changed after kContactPasses
 };
 
 template <int Dim>
@@ -156,9 +158,8 @@ struct Kernels {
   void (*set_radius)(const BodyView<Dim>&, int blocks);
 };
 
-// The build of the kernels that suits this machine.
+// The build of the kernels that instruction_set() names (dispatch.hpp). Throws as that.
 template <int Dim>
 const Kernels<Dim>& kernels();
-const char* instruction_set();  // name of that build
 
 }  // namespace strandlab::mpm

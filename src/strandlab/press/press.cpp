@@ -8,6 +8,7 @@
 #include <deque>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/mpm/kernels.hpp"
 
 namespace strandlab::press {
 namespace {
@@ -290,6 +291,12 @@ class Press {
           fmt::format("The two platens felt forces that differed by up to {:.0f} % ({}): the mat was not pressed "
                       "evenly. Lower press.speed_m_s.",
                       100 * state_.worst_imbalance, limit(kForceLimit, even_from())));
+    }
+    if (const auto count = engine_->state().unconverged_contacts; count > 0) {
+      w.push_back(
+          fmt::format("Contact did not settle at {} nodes (summed over the steps): their impulses still changed "
+                      "after {} passes. Lower mpm.courant or press.speed_m_s.",
+                      count, mpm::kContactPasses));
     }
     if (!state_.records.empty() && std::abs(state_.records.back().balance_error()) > kBalanceLimit) {
       w.push_back(fmt::format("The energy balance is off by {:.1f} % of the platens' work.",

@@ -100,7 +100,8 @@ Checkpoint<Dim> any_checkpoint() {
     c.panel.strands = {any_strand<3>(any, 0, {9, 4, 3}), any_strand<3>(any, 2, {5, 2, 3})};
   }
   c.engine = {123456789012LL, any(),          any(),
-              {any(), any()}, {any(), any()}, {any(), any(), any(), any(), any(), any(), any(), any()}};
+              {any(), any()}, {any(), any()}, {any(), any(), any(), any(), any(), any(), any(), any()},
+              98765432109LL};
   for (int i = 0; i < 5; ++i) c.records.push_back(any_record(any));
   c.pending = any_record(any);
   c.snapshots_done = 3;
@@ -128,6 +129,7 @@ class Bits {
   }
   void add(const mpm::EngineState& s) {
     add(s.step);
+    add(s.unconverged_contacts);
     const auto& e = s.energies;
     for (const double value :
          {s.time_s, s.time_step_s, s.bottom.position, s.bottom.velocity, s.top.position, s.top.velocity, e.kinetic,

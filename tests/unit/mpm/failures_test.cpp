@@ -140,6 +140,28 @@ TEST(Failure, MoreBodiesAtANodeThanItHolds) {
               {"step 0", "ms", "more than 24 bodies meet at one grid node", "x = "});
 }
 
+// Strands that run through each other, all at the same nodes: two settle in one pass, 24 of them not in 40. Nothing
+// stops; the state counts the nodes.
+TEST(Contact, ThatDoesNotSettleIsCounted) {
+  const auto unsettled = [](int strands) {
+    std::vector<Body<2>> bodies(static_cast<std::size_t>(strands), strand_of(0, kLength));
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const double up = b % 2 ? 1 : -1;
+      for (auto& v : bodies[b].v) v = Vec<2>(0, up * 1000 * static_cast<double>(1 + b * b % 7));
+    }
+    Grid<2> grid;
+    grid.cell = Vec<2>::Constant(kThick / 3);
+    grid.origin = Vec<2>::Zero();
+    grid.lo = Vec<2>::Constant(-2);
+    grid.hi = Vec<2>::Constant(4);
+    Engine<2> engine(bodies, grid, Options{});
+    engine.step();
+    return engine.state().unconverged_contacts;
+  };
+  EXPECT_EQ(unsettled(2), 0);
+  EXPECT_GT(unsettled(24), 0);
+}
+
 // A strand far thinner than a cell has no stable motion between its neighbours. It may fail, with a message; it
 // must never write outside its windows (the sanitizers watch).
 TEST(Failure, SliverNeverLeavesItsWindows) {

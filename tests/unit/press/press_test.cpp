@@ -151,6 +151,22 @@ TEST(Press, WarnsOfTooFastPressing) {
   EXPECT_NE(warnings.front().find("press.speed_m_s"), std::string::npos) << warnings.front();
 }
 
+// Nodes where contact did not settle are told of at the end, those of before a restart among them.
+TEST(Press, WarnsOfContactThatDidNotSettle) {
+  const auto panel = rows(2, 2 * kRow);
+  std::vector<press::Checkpoint<2>> checkpoints;
+  press::Sink<2> sink;
+  sink.checkpoint = [&](const press::Checkpoint<2>& c) { checkpoints.push_back(c); };
+  const auto schedule = schedule_to({0, 0.02});
+  const auto outcome = press::press<2>(panel, schedule, small_setup(panel), sink);
+  EXPECT_TRUE(outcome.warnings.empty()) << outcome.warnings.front();
+  ASSERT_FALSE(checkpoints.empty());
+  checkpoints.front().engine.unconverged_contacts = 7;
+  const auto warnings = press::press<2>(panel, schedule, small_setup(panel), {}, checkpoints.front()).warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings.front().find("Contact did not settle at 7 nodes"), std::string::npos) << warnings.front();
+}
+
 // Motion is large against a stress that has yet to rise; where it no longer is, the warning says from which compaction
 // on: that of the last record with more than a twentieth of the internal energy in motion.
 TEST(Press, WarningsSayWhereInertiaNoLongerShows) {

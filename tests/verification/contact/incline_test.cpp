@@ -133,28 +133,30 @@ void expect_slides(const Slope& slope, int steps) {
   incline.run(steps);
   const double acceleration = (incline.speed() - v0) / (incline.time() - t0);
   const double expected = incline.slope_gravity() - kFriction * incline.normal_gravity();
-  EXPECT_NEAR(acceleration / expected, 1, 0.02);
   report("acceleration down a slope over g (sin - mu cos), " + slope_name<Dim>(slope), acceleration / expected,
-         "1 +- 0.02");
+         Dim == 3            ? near(1, 1e-4).because("one limit for all directions")
+         : slope.normal == 1 ? near(1, 5e-4)
+                             : near(1, 3e-3));
   const double slip = incline.place() - s0;
   EXPECT_GT(slip, 0.25 * kCell);
   const double work = (incline.friction_work() - w0) / (kFriction * incline.weight() * slip);
-  EXPECT_NEAR(work, 1, 0.02);
-  report("friction work over mu weight slip, " + slope_name<Dim>(slope), work, "1 +- 0.02");
+  report("friction work over mu weight slip, " + slope_name<Dim>(slope), work,
+         near(1, Dim == 3            ? 4e-3
+                 : slope.normal == 1 ? 0.02
+                                     : 5e-4));
 }
 
 // tan = 0.2 < mu: the particles next to the slope may shear by what elasticity gives (below 1e-4 cell here), and not
 // slip.
 template <int Dim>
-void expect_sticks(const Slope& slope, int steps) {
+void expect_sticks(const Slope& slope, int steps, double limit) {
   Incline<Dim> incline(slope, 0.2, 0.25 * kGravity);
   const double start = incline.place();
   incline.settle();
-  EXPECT_LT(std::abs(incline.place() - start), 1e-3 * kCell);
+  EXPECT_LT(std::abs(incline.place() - start), limit * kCell);
   incline.run(steps);
   const double slip = std::abs(incline.place() - start) / kCell;
-  EXPECT_LT(slip, 1e-3);
-  report("slip below the angle of friction, " + slope_name<Dim>(slope), slip, "< 1e-3", "cells");
+  report("slip below the angle of friction, " + slope_name<Dim>(slope), slip, below(limit), "cells");
 }
 
 class Incline2D : public testing::TestWithParam<Slope> {};
@@ -162,7 +164,7 @@ TEST_P(Incline2D, SlidesAsCoulombSays) {
   expect_slides<2>(GetParam(), 1500);
 }
 TEST_P(Incline2D, SticksBelowTheAngleOfFriction) {
-  expect_sticks<2>(GetParam(), 1500);
+  expect_sticks<2>(GetParam(), 1500, GetParam().normal == 1 ? 3e-5 : 1e-3);
 }
 INSTANTIATE_TEST_SUITE_P(Contact, Incline2D,
                          testing::Values(Slope{1, {1, 0}, false}, Slope{1, {1, 0}, true}, Slope{1, {-1, 0}, false},
@@ -173,7 +175,7 @@ TEST_P(Incline3D, SlidesAsCoulombSays) {
   expect_slides<3>(GetParam(), 600);
 }
 TEST_P(Incline3D, SticksBelowTheAngleOfFriction) {
-  expect_sticks<3>(GetParam(), 100);
+  expect_sticks<3>(GetParam(), 100, 3e-5);
 }
 INSTANTIATE_TEST_SUITE_P(Contact, Incline3D,
                          testing::Values(Slope{2, {1, 0, 0}, false}, Slope{2, {0, 1, 0}, true},

@@ -60,11 +60,11 @@ TEST(Meetings, ThreeRowsWithTwoEndsEachDoNotDependOnBodyOrder) {
         dv = std::max(dv, (other[b].v[p] - reference[b].v[p]).norm() / moved);
       }
     }
-    EXPECT_LT(dx, 1e-12);
     worst = std::max(worst, dx);
     EXPECT_LT(dv, 1e-10);  // velocities carry round-off times the elastic waves' stiffness
   }
-  report("six bodies at a node in three other orders: positions", worst, "< 1e-12", "cells");
+  report("six bodies at a node in three other orders: positions", worst, below(1e-12).because(test::kRoundOff),
+         "cells");
 }
 
 class TouchingFaces : public testing::TestWithParam<double> {};
@@ -99,10 +99,9 @@ TEST_P(TouchingFaces, KeepNoGapAndNoOverlap) {
     worst = std::max(worst, std::abs(gap));
     ++count;
   }
-  EXPECT_LT(std::abs(sum / count), 0.02);
-  EXPECT_LT(worst, 0.05);
-  report("mean gap of touching faces, grid offset " + testing::PrintToString(GetParam()), sum / count, "within 0.02",
-         "cells");
+  const std::string at = "touching faces, grid offset " + testing::PrintToString(GetParam());
+  report("mean gap of " + at, sum / count, within(1.5e-6), "cells");
+  report("largest gap or overlap of " + at, worst, below(4e-6), "cells");
 }
 INSTANTIATE_TEST_SUITE_P(Contact, TouchingFaces, testing::Values(0.0, 0.25, 0.37, 0.5));
 

@@ -90,18 +90,15 @@ void expect_second_order(Ends ends, const char* name) {
   std::vector<Vibration> runs;
   for (int cells : {10, 20, 40, 80}) {
     runs.push_back(vibrate(cells, ends));
+    // 1.7 (h/L)^2, within a factor of two.
     report(fmt::format("bar with {} ends, {} cells: relative error of the period 2 L/c", name, cells),
-           runs.back().period_error, cells == 40 ? "0.1 %" : "falls by order 1.8");
+           runs.back().period_error, within(2.5 / (cells * cells)));
     if (cells < 40) continue;
     report(fmt::format("bar with {} ends, {} cells: energy drift over ten periods", name, cells),
-           runs.back().energy_drift, "1 %");
+           runs.back().energy_drift, within(cells == 40 ? 5e-3 : 1e-3));
   }
   const double order = std::log2(std::abs(runs[0].period_error / runs[3].period_error)) / 3;
-  report(fmt::format("bar with {} ends: order of the period's error, 10 to 80 cells", name), order, ">= 1.8");
-  EXPECT_GE(order, 1.8);
-  EXPECT_LT(std::abs(runs[2].period_error), 1e-3);
-  EXPECT_LT(std::abs(runs[2].energy_drift), 0.01);
-  EXPECT_LT(std::abs(runs[3].energy_drift), 0.01);
+  report(fmt::format("bar with {} ends: order of the period's error, 10 to 80 cells", name), order, above(1.8));
 }
 
 TEST(Bar, PeriodBetweenRollers) {
@@ -130,8 +127,7 @@ TEST(Bar, WaveTransit) {
     if (now >= -speed / 3) arrival = engine.state().time_s - dt * (now + speed / 3) / (now - before);
     before = now;
   }
-  report("bar: arrival of a wave at the free end over L/c", arrival * c / kLength, "1 +- 0.01");
-  EXPECT_NEAR(arrival * c / kLength, 1, 0.01);
+  report("bar: arrival of a wave at the free end over L/c", arrival * c / kLength, near(1, 0.005));
 }
 
 }  // namespace

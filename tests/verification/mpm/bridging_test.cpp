@@ -99,8 +99,8 @@ Errors compare(const Line& a, int cells, const Line& fine, int finer_cells) {
   const Errors e{difference(a.deflection, fine.deflection), difference(a.angle, fine.angle),
                  std::abs(largest(a.angle) / largest(fine.angle) - 1)};
   const std::string what = fmt::format("strand over a gap, {} cells against {} through it: ", cells, finer_cells);
-  report(what + "rms difference of deflection, relative", e.deflection, cells == 3 ? "2 %" : "falls");
-  report(what + "rms difference of grain angle, relative", e.angle, cells == 3 ? "3 %" : "falls");
+  report(what + "rms difference of deflection, relative", e.deflection, below(cells == 3 ? 0.02 : 1e-3));
+  report(what + "rms difference of grain angle, relative", e.angle, below(cells == 3 ? 0.03 : 0.01));
   return e;
 }
 
@@ -110,8 +110,6 @@ TEST(BridgedGap, DeflectionAndGrainAngleConverge) {
   const Errors e = compare(coarse, 3, fine, 6);
   EXPECT_GT(largest(fine.deflection), 0.2);
   EXPECT_GT(largest(fine.angle), 0.1);
-  EXPECT_LT(e.deflection, 0.02);
-  EXPECT_LT(e.angle, 0.03);
   EXPECT_LT(e.largest_angle, 0.03);
 }
 

@@ -30,8 +30,8 @@ Panel<2> panel_of(const mat::Mat& mat) {
 }
 
 // Presses at 16 m/s and checks at every half per cent of compaction from 1 % on that the platens' work is found again
-// in the other terms, each summed from its own definition: within 1 % of it.
-void expect_balance(const mat::Mat& mat, double compaction, double ramp, double courant) {
+// in the other terms, each summed from its own definition: within `limit` of it.
+void expect_balance(const mat::Mat& mat, double compaction, double ramp, double courant, double limit) {
   const auto panel = panel_of(mat);
   mpm::Options options;
   options.courant = courant;
@@ -44,28 +44,27 @@ void expect_balance(const mat::Mat& mat, double compaction, double ramp, double 
   for (const auto& r : outcome.records) {
     if (r.compaction < 0.01) continue;
     worst = std::max(worst, std::abs(r.balance_error()));
-    EXPECT_LT(std::abs(r.balance_error()), 0.01) << "at C = " << r.compaction;
     EXPECT_GT(r.plastic_mJ, 0) << "at C = " << r.compaction;
     EXPECT_GT(r.friction_mJ, 0) << "at C = " << r.compaction;
   }
   report(fmt::format("{} strands pressed to C = {}, Courant number {}: worst energy balance over the platens' work",
                      panel.strands.size(), compaction, courant),
-         worst, "1 %");
+         worst, below(limit));
 }
 
 TEST(Energy, PlatenWorkIsFoundAgainInAPressedSlice) {
-  expect_balance(strand_board(10, 8), 0.4, 0.02, 0.4);
-  expect_balance(strand_board(10, 8), 0.15, 0.05, 0.1);
+  expect_balance(strand_board(10, 8), 0.4, 0.02, 0.4, 1e-4);
+  expect_balance(strand_board(10, 8), 0.15, 0.05, 0.1, 3e-5);
 }
 
 // Twenty rows with gaps in the face rows: until the gaps close the strands fly and meet, and most of the work is
 // kinetic.
 TEST(Energy, PlatenWorkIsFoundAgainWhileStrandsMeetNightly) {
-  expect_balance(strand_board(30, 20), 0.1, 0.08, 0.4);
+  expect_balance(strand_board(30, 20), 0.1, 0.08, 0.4, 1e-4);
 }
 
-// The mass is that of the strands as drawn, to round-off, before and after: density times length times thickness, per
-// mm depth.
+// The mass on the grid is that of the strands as drawn, to round-off, in every step: density times length times
+// thickness, per mm depth. What weights spread behind rollers is folded back, and mirror images do not count.
 TEST(Mass, IsThatOfTheStrands) {
   const auto mat = strand_board(30, 8);
   double expected = 0;
@@ -79,9 +78,13 @@ TEST(Mass, IsThatOfTheStrands) {
   mpm::Engine<2> engine(bodies, s.grid, s.engine);
   engine.set_platens({panel.bottom_mm, 0}, {panel.top_mm, -16000});
   EXPECT_NEAR(engine.mass(), expected, 1e-13 * expected);
-  const double before = engine.mass();
-  for (int k = 0; k < 300; ++k) engine.step();
-  EXPECT_EQ(engine.mass(), before);
+  double worst = 0;
+  for (int k = 0; k < 300; ++k) {
+    engine.step();
+    worst = std::max(worst, std::abs(engine.grid_mass() / expected - 1));
+  }
+  report("mass on the grid over that of the strands, less 1: largest of 300 steps", worst,
+         below(1e-12).because(test::kRoundOff));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <functional>
 
+#include "support/near.hpp"
 #include "support/report.hpp"
 #include "verification/mpm/single_block.hpp"
 
@@ -38,7 +39,8 @@ std::vector<Body<Dim>> turn_once(Body<Dim> body, const Tensor<Dim>& spin) {
   return bodies;
 }
 
-// A rigid turn of 360 degrees strains nothing: what the strand feels in its own axes is as before, to 1e-3.
+// A rigid turn of 360 degrees strains nothing: what the strand feels in its own axes is as before to round-off. F is
+// exp(dt L) to second order only (advance_F): a step of one degree adds (pi/180)^4/4 of volume, 360 of them 8.4e-6.
 template <int Dim>
 void expect_unstrained(const std::string& what, const Body<Dim>& body) {
   const Voigt before = some_stress(Dim == 2);
@@ -46,12 +48,10 @@ void expect_unstrained(const std::string& what, const Body<Dim>& body) {
   for (std::size_t p = 0; p < body.x.size(); ++p) {
     stress = std::max(stress, (body.stress[p] - before).norm() / before.norm());
     volume = std::max(volume, std::abs(body.F[p].determinant() - 1));
-    ASSERT_LT((body.stress[p] - before).norm(), 1e-3 * before.norm()) << "particle " << p;
-    ASSERT_NEAR(body.F[p].determinant(), 1, 1e-3);
     ASSERT_LT((body.F[p] - Tensor<Dim>::Identity()).norm(), 1e-3);
   }
-  report(what + ": relative change of stress in strand axes", stress, "1e-3");
-  report(what + ": change of volume", volume, "1e-3");
+  report(what + ": relative change of stress in strand axes", stress, below(1e-11).because(test::kRoundOff));
+  report(what + ": change of volume", volume, near(360 * std::pow(kDegree, 4) / 4, 3e-10));
 }
 
 TEST(ImposedRotation, LeavesStressInStrandAxes2D) {
@@ -135,15 +135,12 @@ template <int Dim>
 void expect_free_spin(double coarse, double fine) {
   const Spin a = spin_freely<Dim>(coarse), b = spin_freely<Dim>(fine);
   report(fmt::format("free spin by 30 degrees, {}D, cell {:.2f} mm: angular momentum lost", Dim, coarse), a.lost,
-         "2 %");
+         within(0.03));
   report(fmt::format("free spin by 30 degrees, {}D, cell {:.2f} mm: angular momentum lost", Dim, fine), b.lost,
-         "less than with the larger cell");
+         within(0.01));
   report(fmt::format("free spin by 30 degrees, {}D: change of linear momentum, relative", Dim),
-         std::max(a.momentum, b.momentum), "1e-12");
-  EXPECT_LT(std::abs(a.lost), 0.02);
+         std::max(a.momentum, b.momentum), below(1e-12).because(test::kRoundOff));
   EXPECT_LT(std::abs(b.lost), std::abs(a.lost));
-  EXPECT_LT(a.momentum, 1e-12);
-  EXPECT_LT(b.momentum, 1e-12);
 }
 
 TEST(FreeSpin, KeepsMomentum2D) {
@@ -202,9 +199,9 @@ void expect_turned(int with) {
   }
   EXPECT_GT(largest, 10) << "MPa";
   report(fmt::format("block turned by a quarter beforehand, {}D, axis {}: difference of stress", Dim, with),
-         stress / largest, "1e-9");
-  EXPECT_LT(worst, 1e-10) << "mm";
-  EXPECT_LT(stress, 1e-9 * largest);
+         stress / largest, below(1e-11).because(test::kRoundOff));
+  report(fmt::format("block turned by a quarter beforehand, {}D, axis {}: difference of positions", Dim, with), worst,
+         below(1e-11).because(test::kRoundOff), "mm");
 }
 
 TEST(QuarterTurn, TurnsTheResult2D) {
@@ -257,12 +254,12 @@ void expect_closed() {
         double largest = 0;
         const Voigt left = shear_cycle<Dim>(elastic_poplar(angle), i, j, [&](const Voigt& s) { largest = s.norm(); });
         EXPECT_GT(largest, 10) << "MPa; shear " << i << j;
-        EXPECT_LT(left.norm(), 1e-3 * largest) << "shear " << i << j << ", grain at " << angle << " degrees";
         worst = std::max(worst, left.norm() / largest);
       }
     }
   }
-  report(fmt::format("closed elastic shear cycle of 20 degrees, {}D: stress left over its peak", Dim), worst, "1e-3");
+  report(fmt::format("closed elastic shear cycle of 20 degrees, {}D: stress left over its peak", Dim), worst,
+         below(1e-13).because(test::kRoundOff));
 }
 
 TEST(ShearCycle, LeavesNoStress2D) {
@@ -280,8 +277,7 @@ TEST(ShearCycle, PeaksAtTheClosedForm2D) {
   const VoigtMatrix& C = material.stiffness;
   const double g = std::tan(20 * kDegree), stretch = 0.5 * std::log(1 + g * g);
   shear_cycle<2>(material, 0, 1, [&](const Voigt& s) {
-    EXPECT_NEAR(s[4], C(4, 4) * g, 1e-9 * C(4, 4));
-    EXPECT_NEAR(s[0], 0, 1e-9 * C(0, 0));
+    EXPECT_THAT(s, test::StressNear((C(4, 4) * g * Voigt::Unit(4)).eval(), 1e-9 * C(4, 4)));
   });
   shear_cycle<2>(material, 1, 0, [&](const Voigt& s) {
     EXPECT_NEAR(s[4], C(4, 4) * (2 * std::atan(g) - g), 1e-5 * C(4, 4));

@@ -44,10 +44,9 @@ TEST(OffAxisStrand, FeelsTheFullStiffness) {
     EXPECT_GT(std::abs(expected[5]), 0.1 * std::abs(expected[0])) << "no shear across to speak of";
     for (const auto& stress : body.stress) {
       worst = std::max(worst, (stress - expected).norm() / expected.norm());
-      ASSERT_LT((stress - expected).norm(), 1e-5 * expected.norm()) << angle;
     }
   }
-  report("off-axis block under small strain, all six stresses against the wood's stiffness", worst, "1e-5");
+  report("off-axis block under small strain, all six stresses against the wood's stiffness", worst, below(5e-7));
 }
 
 // One point under the same steps: compression through the thickness by strains `a`, F as the engine integrates it.
@@ -93,8 +92,8 @@ TEST(Packs, YieldAsOnePointDoes) {
     worst = std::max(worst, difference<wood::CrushingLaw, 6>(poplar(kCrushing, 30), a, 4 * steps));
     worst = std::max(worst, difference<wood::CrushingLaw, 4>(poplar(kCrushing, 90, true), a, steps));
   }
-  EXPECT_LT(worst, 1e-8);
-  report("packs of eight against one point, both laws, compression to 14 and 45 %: stress", worst, "1e-8");
+  report("packs of eight against one point, both laws, compression to 14 and 45 %: stress", worst,
+         below(1e-11).because(test::kRoundOff));
 }
 
 }  // namespace

@@ -83,8 +83,7 @@ class Stack : public testing::TestWithParam<Case> {
     return press::press<2>(panel, schedule, setup, {});
   }
 
-  // Stress within 2 % from C = .1 on; below, the compaction at which the closed form has the measured stress is within
-  // .002.
+  // From C = .1 on the stress; below, the compaction at which the closed form has the measured stress.
   static void expect_follows(const std::string& wood, const press::Outcome<2>& outcome,
                              const std::function<double(double)>& closed) {
     double worst_stress = 0, worst_shift = 0, before = 0;
@@ -99,11 +98,13 @@ class Stack : public testing::TestWithParam<Case> {
       for (int i = 0; i < 60; ++i) (closed(0.5 * (low + high)) < r.stress_MPa ? low : high) = 0.5 * (low + high);
       worst_shift = std::max(worst_shift, std::abs(low - C));
     }
-    EXPECT_LT(worst_stress, 0.02);
-    EXPECT_LT(worst_shift, 0.002);
     const std::string what = wood + " stack, " + testing::PrintToString(GetParam()) + ": ";
-    report(what + "largest error of the stress, C >= 0.1", worst_stress, "< 0.02");
-    report(what + "largest shift of the curve, C < 0.1", worst_shift, "< 0.002");
+    report(what + "largest error of the stress, C >= 0.1", worst_stress,
+           below(GetParam().follow                 ? 5e-4
+                 : GetParam().offset_cells == 0.25 ? 1e-3
+                 : wood == "elastic"               ? 4e-3
+                                                   : 2e-3));
+    report(what + "largest shift of the curve, C < 0.1", worst_shift, below(1e-3));
     EXPECT_GT(outcome.records.size(), 190u);
   }
 };
@@ -148,7 +149,6 @@ TEST(CrushingStack, FollowsTheConfinedCheckValues) {
   double worst = 0, plastic = 0, unbalanced = 0;
   for (const auto& [C, stress] : kCrushed) {
     const double measured = stress_at(outcome.records, C);
-    EXPECT_NEAR(measured / stress, 1, 0.02) << "C = " << C;
     worst = std::max(worst, std::abs(measured / stress - 1));
   }
   for (const auto& r : outcome.records) {
@@ -157,10 +157,9 @@ TEST(CrushingStack, FollowsTheConfinedCheckValues) {
     if (r.compaction < 0.01) continue;
     unbalanced = std::max(unbalanced, std::abs(r.balance_error()));
   }
-  EXPECT_LT(unbalanced, 0.01);
   report("stack of strands that crush, confined, to 60 %: largest deviation of stress from the check values", worst,
-         "2 %");
-  report("the same: worst energy balance over the platens' work", unbalanced, "1 %");
+         below(0.003));
+  report("the same stack: worst energy balance over the platens' work", unbalanced, below(3e-5));
 }
 
 // Rows by either law in one stack carry the same stress: those that crush take all of the compaction but what the
@@ -178,12 +177,11 @@ TEST(CrushingStack, CarriesTheStressOfItsHillRows) {
       for (int i = 0; i < 50; ++i) (confined.hill(0.5 * (low + high)) < stress ? low : high) = 0.5 * (low + high);
       ASSERT_LT(high, 0.02);
       const double measured = stress_at(outcome.records, 0.5 * (crushed + low));
-      EXPECT_NEAR(measured / stress, 1, limit) << "crushed by " << crushed << ", cells " << cells;
       worst = std::max(worst, std::abs(measured / stress - 1));
     }
     report("rows that crush to 50 % beside rows by Hill's law, " + std::to_string(cells) +
                " cells through a strand: largest deviation of stress from the check values",
-           worst, "< " + std::to_string(limit).substr(0, 4));
+           worst, below(limit));
   }
 }
 

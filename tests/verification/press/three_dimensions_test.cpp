@@ -100,10 +100,10 @@ TEST(ThreeDimensions, ExtrudedMatMovesAsItsSection) {
       moved = std::max(moved, std::abs(x[1] - (pieces()[b].row * 0.8 + (static_cast<double>(layer) + 0.5) * 0.8 / 6)));
     }
   }
-  EXPECT_LT(worst, 1e-10);
-  EXPECT_LT(across, 1e-10);
   EXPECT_GT(moved, 0.05);  // mm; something happened
-  report("extruded mat against its section, positions after 200 steps", worst, "< 1e-10", "mm");
+  report("extruded mat against its section, positions after 200 steps", worst, below(1e-12).because(test::kRoundOff),
+         "mm");
+  report("extruded mat: largest motion across after 200 steps", across, below(1e-12).because(test::kRoundOff), "mm");
   for (std::size_t i = 0; i < section.top_force.size(); ++i) {
     EXPECT_NEAR(prism.top_force[i], section.top_force[i], 1e-7 + 1e-7 * std::abs(section.top_force[i])) << "step " << i;
   }
@@ -131,9 +131,8 @@ TEST(ThreeDimensions, ExtrudedMatHasThePressingCurveOfItsSection) {
     worst =
         std::max(worst, std::abs(prism[i].stress_MPa - section[i].stress_MPa) / std::max(0.5, section[i].stress_MPa));
   }
-  EXPECT_LT(worst, 0.01);
   EXPECT_GT(section.back().stress_MPa, 1);
-  report("extruded mat against its section, pressing curve to C = 0.1", worst, "< 0.01");
+  report("extruded mat against its section, pressing curve to C = 0.1", worst, below(1e-10).because(test::kRoundOff));
 }
 
 // Two strands 4 mm long and 1.6 mm wide across each other, pressed by 15 % between smooth platens. Each is alone at its
@@ -206,10 +205,9 @@ TEST_F(CrossedStrands, KeepTheirMomentumAndDoNotInterpenetrate) {
     ++count;
   }
   ASSERT_GT(count, 100);
-  EXPECT_LT(std::abs(sum / count), 0.02);  // cells
-  EXPECT_GT(worst, -0.15);                 // at the strands' edges, where the arms bend away
-  report("crossed strands pressed by 15 %: mean gap of their interface", sum / count, "within 0.02", "cells");
-  report("crossed strands pressed by 15 %: deepest overlap, at the edges", -worst, "< 0.15", "cells");
+  report("crossed strands pressed by 15 %: mean gap of their interface", sum / count, within(2e-3), "cells");
+  // At the strands' edges, where the arms bend away.
+  report("crossed strands pressed by 15 %: deepest overlap, at the edges", -worst, below(0.03), "cells");
 }
 
 }  // namespace

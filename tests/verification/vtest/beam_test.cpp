@@ -58,7 +58,9 @@ double timoshenko(double E, double G, double c, double span_to_thickness) {
   return 1 / (1 / E + c / (5.0 / 6 * G) / (span_to_thickness * span_to_thickness));
 }
 
-void expect_timoshenko(const std::string& what, const wood::Material& material, double E, double G) {
+// limit3 and limit4: of the shear-free moduli, in per cent.
+void expect_timoshenko(const std::string& what, const wood::Material& material, double E, double G, double limit3,
+                       double limit4) {
   auto options = on_supports();
   for (const double ratio : {20.0, 24.0}) {
     options.span_to_thickness = ratio;
@@ -68,22 +70,22 @@ void expect_timoshenko(const std::string& what, const wood::Material& material, 
     const double true3 = *result.moduli[0].shear_free_modulus_MPa / E - 1;
     const double true4 = *result.moduli[1].shear_free_modulus_MPa / E - 1;
     const auto at = ", span " + std::to_string(static_cast<int>(ratio)) + " thicknesses";
-    report(what + ", 3-point" + at + ": apparent modulus against Timoshenko", 100 * error3, "1", "%");
-    report(what + ", 4-point" + at + ": apparent modulus against Timoshenko", 100 * error4, "1", "%");
-    report(what + ", 3-point" + at + ": shear-free against plane-strain modulus", 100 * true3, "1", "%");
-    report(what + ", 4-point" + at + ": shear-free against plane-strain modulus", 100 * true4, "1", "%");
-    for (const double error : {error3, error4, true3, true4}) EXPECT_LT(std::abs(error), 0.01) << what << at;
+    report(what + ", 3-point" + at + ": apparent modulus against Timoshenko", 100 * error3, within(0.5), "%");
+    report(what + ", 4-point" + at + ": apparent modulus against Timoshenko", 100 * error4, within(0.4), "%");
+    report(what + ", 3-point" + at + ": shear-free against plane-strain modulus", 100 * true3, within(limit3), "%");
+    report(what + ", 4-point" + at + ": shear-free against plane-strain modulus", 100 * true4, within(limit4), "%");
     for (const auto& m : result.moduli) EXPECT_NEAR(m.reaction_modulus_MPa / m.modulus_MPa, 1, 1e-6) << what << at;
   }
 }
 
 TEST(BendingOnSupports, IsotropicBeamIsTimoshenkos) {
   const double E = 2500, nu = 0.33;
-  expect_timoshenko("isotropic", isotropic(E, nu), E / (1 - nu * nu), E / (2 * (1 + nu)));
+  expect_timoshenko("isotropic", isotropic(E, nu), E / (1 - nu * nu), E / (2 * (1 + nu)), 0.02, 1.5e-5);
 }
 
 TEST(BendingOnSupports, WoodenBeamIsTimoshenkos) {
-  expect_timoshenko("poplar", wood::Material{}, theory::plane_strain_modulus_MPa({}, 0), wood::Material{}.G_RL);
+  expect_timoshenko("poplar", wood::Material{}, theory::plane_strain_modulus_MPa({}, 0), wood::Material{}.G_RL, 0.15,
+                    0.01);
 }
 
 // Seven plies, grain of every other one across: sum of E_i I_i over I with the plies' plane-strain moduli.
@@ -94,8 +96,7 @@ TEST(BendingOnSupports, PlywoodBeamIsTheLaminate) {
   const double laminate = theory::bending_of_moduli_MPa(moduli, 0);
   const auto result = measure(full_rows({}, angles, 5.6 * 22), on_supports());
   const double error = *result.moduli[1].shear_free_modulus_MPa / laminate - 1;
-  report("plywood, 4-point: shear-free modulus against laminated-beam theory", 100 * error, "1", "%");
-  EXPECT_LT(std::abs(error), 0.01);
+  report("plywood, 4-point: shear-free modulus against laminated-beam theory", 100 * error, within(0.2), "%");
   // Rolling shear in the cross plies makes the shear deflection large: the apparent moduli lie well below.
   for (const auto& m : result.moduli) EXPECT_LT(m.modulus_MPa, 0.95 * laminate);
   EXPECT_NEAR(*result.moduli[0].shear_free_modulus_MPa / laminate, 1, 0.02);
@@ -117,8 +118,8 @@ TEST(BendingOnSupports, WidthOfThePadsDoesNotMatter) {
                        std::abs(*other.moduli[i].shear_free_modulus_MPa / *usual.moduli[i].shear_free_modulus_MPa - 1));
     }
   }
-  report("pads of a quarter and a whole thickness against half: largest change of a modulus", 100 * worst, "0.2", "%");
-  EXPECT_LT(worst, 0.002);
+  report("pads of a quarter and a whole thickness against half: largest change of a modulus", 100 * worst, below(0.2),
+         "%");
 }
 
 TEST(BendingOnSupports, ConvergesWithTheElements) {
@@ -134,11 +135,14 @@ TEST(BendingOnSupports, ConvergesWithTheElements) {
     for (std::size_t i = 0; i < 2; ++i)
       worst = std::max(worst, std::abs(coarse.moduli[i].modulus_MPa / fine.moduli[i].modulus_MPa - 1));
     report(std::to_string(elements) + " elements through a strand against 6: largest change of an apparent modulus",
-           100 * worst, elements == 3 ? "0.2" : "falls", "%");
+           100 * worst,
+           below(elements == 1   ? 0.4
+                 : elements == 2 ? 0.1
+                                 : 0.04),
+           "%");
     EXPECT_LT(worst, before) << elements;
     before = worst;
   }
-  EXPECT_LT(before, 0.002);
 }
 
 // Turned end for end, a panel is as stiff as before.
@@ -162,8 +166,7 @@ TEST(BendingOnSupports, MirroredPanelIsAsStiff) {
     worst =
         std::max(worst, std::abs(*other.moduli[i].shear_free_modulus_MPa / *one.moduli[i].shear_free_modulus_MPa - 1));
   }
-  report("mirrored panel: largest change of a modulus", worst, "1e-6");
-  EXPECT_LT(worst, 1e-6);
+  report("mirrored panel: largest change of a modulus", worst, below(2e-7));
 }
 
 // Softer glue lets strands slide: every modulus falls, and the energies agree with the deflections.
@@ -174,8 +177,7 @@ TEST(BendingOnSupports, SofterGlueBendsMore) {
   double reaction = 0;
   for (const auto& m : result.moduli)
     reaction = std::max(reaction, std::abs(m.reaction_modulus_MPa / m.modulus_MPa - 1));
-  report("random panel: energy against deflection moduli", reaction, "1e-6");
-  EXPECT_LT(reaction, 1e-6);
+  report("random panel: energy against deflection moduli", reaction, below(2e-7));
   for (std::size_t i = 2; i < result.moduli.size(); ++i) {
     EXPECT_LT(result.moduli[i].modulus_MPa, result.moduli[i - 2].modulus_MPa) << i;
     EXPECT_LT(*result.moduli[i].shear_free_modulus_MPa, *result.moduli[i - 2].shear_free_modulus_MPa) << i;

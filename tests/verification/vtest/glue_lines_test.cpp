@@ -19,15 +19,14 @@ Options options_with(std::vector<double> compliances,
   return options;
 }
 
-void expect_same(const std::string& what, const Result& a, const Result& b, double tolerance) {
+void expect_same(const std::string& what, const Result& a, const Result& b, const test::Limit& limit) {
   ASSERT_EQ(a.moduli.size(), b.moduli.size());
   double worst = 0;
   for (std::size_t i = 0; i < a.moduli.size(); ++i) {
     const double ratio = a.moduli[i].modulus_MPa / b.moduli[i].modulus_MPa;
-    EXPECT_NEAR(ratio, 1, tolerance) << name(a.moduli[i].kind) << " at 1/D_t = " << a.moduli[i].compliance_t_mm_per_MPa;
     worst = std::max(worst, std::abs(ratio - 1));
   }
-  report(what + ": largest change of a modulus", worst, fmt::format("{}", tolerance));
+  report(what + ": largest change of a modulus", worst, limit);
 }
 
 // Undulated laminate of four rows, A sin(2 pi x/w), 25 mm long: tension moduli of an independent finite-element
@@ -37,12 +36,14 @@ struct Undulation {
   std::vector<double> compliances, moduli;
 };
 
+constexpr const char* kReferenceAsPrinted = "one limit for all 1/D_t; the reference is rounded to 1 MPa";
+
 class UndulatedLaminate : public testing::TestWithParam<Undulation> {};
 
 TEST_P(UndulatedLaminate, FollowsTheReference) {
   const auto& u = GetParam();
   const auto panel = undulated_laminate(4, 25, u.amplitude_mm, u.wave_mm);
-  for (const auto& [elements, tolerance] : {std::pair{6, 0.01}, std::pair{3, 0.03}}) {
+  for (const auto& [elements, tolerance] : {std::pair{6, 0.003}, std::pair{3, 0.03}}) {
     auto options = options_with(u.compliances, {Kind::kTension});
     options.elements_through_strand = elements;
     const auto result = measure(panel, options);
@@ -50,9 +51,8 @@ TEST_P(UndulatedLaminate, FollowsTheReference) {
     for (std::size_t i = 0; i < u.moduli.size(); ++i) {
       report(fmt::format("undulated laminate, A = {}, w = {} mm, 1/D_t = {}, {} elements: tension modulus",
                          u.amplitude_mm, u.wave_mm, u.compliances[i], elements),
-             result.moduli[i].modulus_MPa, fmt::format("{} within {:g} %", u.moduli[i], 100 * tolerance), "MPa");
-      EXPECT_NEAR(result.moduli[i].modulus_MPa / u.moduli[i], 1, tolerance)
-          << elements << " elements, 1/D_t = " << u.compliances[i];
+             result.moduli[i].modulus_MPa, near(u.moduli[i], tolerance * u.moduli[i]).because(kReferenceAsPrinted),
+             "MPa");
       EXPECT_NEAR(result.moduli[i].modulus_MPa / result.moduli[i].reaction_modulus_MPa, 1, 1e-6);
     }
   }
@@ -81,12 +81,10 @@ TEST(StrandEnds, MoveModuliContinuously) {
       step = std::max(step, (now - middle) / now);
       kink = std::max(kink, std::abs(now - 2 * middle + before) / now);
       EXPECT_GT(now, middle);
-      EXPECT_LT((now - middle) / now, 1e-4);
-      EXPECT_LT(std::abs(now - 2 * middle + before) / now, 6e-5);
     }
   }
-  report("strand end moved by tenths of an element: largest relative step of a modulus", step, "1e-4");
-  report("strand end moved by tenths of an element: largest second difference", kink, "6e-5");
+  report("strand end moved by tenths of an element: largest relative step of a modulus", step, below(1e-4));
+  report("strand end moved by tenths of an element: largest second difference", kink, below(6e-5));
 }
 
 mat::Mat mirrored_along(mat::Mat mat) {
@@ -109,8 +107,9 @@ TEST(Mirroring, ChangesNoModulus) {
     const auto options = options_with({0, 0.0163});
     const auto original = measure(panel_of(mat), options);
     expect_same(std::string(name) + " mirrored along x", measure(panel_of(mirrored_along(mat)), options), original,
-                1e-3);
-    expect_same(std::string(name) + " upside down", measure(panel_of(upside_down), options), original, 1e-3);
+                below(5e-6).because("ends off the lattice are drawn onto it from the left"));
+    expect_same(std::string(name) + " upside down", measure(panel_of(upside_down), options), original,
+                below(1e-9).because(test::kRoundOff));
   }
 }
 
@@ -121,7 +120,8 @@ TEST(PerfectBond, DoesNotDependOnItsPenalty) {
     auto options = options_with({0, 0.0105}, all_kinds());
     const auto usual = measure(panel, options);
     options.perfect_bond *= 10;
-    expect_same(fmt::format("{}, penalty of a perfect bond times ten", what), measure(panel, options), usual, 1e-4);
+    expect_same(fmt::format("{}, penalty of a perfect bond times ten", what), measure(panel, options), usual,
+                below(4e-8));
   }
 }
 
@@ -147,8 +147,8 @@ TEST(Refinement, SettlesTheModuliOfAnUndulatedLaminate) {
     options.elements_through_strand = elements;
     results.push_back(measure(panel, options));
   }
-  expect_same("undulated laminate, 3 against 6 elements", results[0], results[1], 0.03);
-  expect_same("undulated laminate, 6 against 12 elements", results[1], results[2], 0.01);
+  expect_same("undulated laminate, 3 against 6 elements", results[0], results[1], below(0.03));
+  expect_same("undulated laminate, 6 against 12 elements", results[1], results[2], below(0.01));
 }
 
 }  // namespace

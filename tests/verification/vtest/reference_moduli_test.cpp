@@ -15,6 +15,8 @@
 namespace strandlab::vtest {
 namespace {
 
+constexpr const char* kMultipliers = "a perfect bond's multipliers stop where it opens by next to nothing";
+
 Options options_for(const std::vector<ReferenceModulus>& reference, int elements_through) {
   Options options;
   options.kinds = all_kinds();
@@ -35,16 +37,13 @@ void expect_moduli(const std::string& what, const Panel<2>& panel, const std::ve
     const auto m = find(result, r.kind, r.compliance_t_mm_per_MPa);
     worst = std::max(worst, std::abs(m.modulus_MPa / r.modulus_MPa - 1));
     reaction = std::max(reaction, std::abs(m.modulus_MPa / m.reaction_modulus_MPa - 1));
-    EXPECT_NEAR(m.modulus_MPa / r.modulus_MPa, 1, tolerance)
-        << name(r.kind) << " at 1/D_t = " << r.compliance_t_mm_per_MPa;
-    EXPECT_NEAR(m.modulus_MPa / m.reaction_modulus_MPa, 1, 1e-6)
-        << name(r.kind) << " at 1/D_t = " << r.compliance_t_mm_per_MPa;
   }
   report(
       fmt::format("{}, {} elements through a strand: largest deviation of {} moduli from the finite-element reference",
                   what, elements_through, reference.size()),
-      worst, fmt::format("{}", tolerance));
-  report(what + ": energy against reaction moduli", reaction, "1e-6");
+      worst, below(tolerance));
+  report(fmt::format("{}, {} elements through a strand: energy against reaction moduli", what, elements_through),
+         reaction, below(5e-7).because(kMultipliers));
 }
 
 struct Case {
@@ -66,19 +65,19 @@ TEST_P(ReferenceModuli, AreMetByEveryLoadCaseAndGlue) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AsFormed, ReferenceModuli,
-                         testing::Values(Case{"plywood", "", 0, 3, 0.001}, Case{"lvl", "", 0, 3, 0.001},
-                                         Case{"osb_s1", "", 0, 3, 0.01}, Case{"osl_s1", "", 0, 3, 0.01}));
+                         testing::Values(Case{"plywood", "", 0, 3, 1e-4}, Case{"lvl", "", 0, 3, 1e-4},
+                                         Case{"osb_s1", "", 0, 3, 5e-4}, Case{"osl_s1", "", 0, 3, 3e-4}));
 INSTANTIATE_TEST_SUITE_P(AsFormedSixElements, ReferenceModuli,
-                         testing::Values(Case{"osb_s1", "_fine", 0, 6, 0.001}, Case{"lvl", "_fine", 0, 6, 0.001}));
+                         testing::Values(Case{"osb_s1", "_fine", 0, 6, 3e-4}, Case{"lvl", "_fine", 0, 6, 3e-5}));
 // Strand ends on a raster of .0667 mm that the default lattice does not share, solved there with elements of .0667 mm.
 INSTANTIATE_TEST_SUITE_P(EndsOffTheLattice, ReferenceModuli,
                          testing::Values(Case{"osb_fine_s11", "", 0, 3, 0.01}, Case{"osl_fine_s12", "", 0, 3, 0.01}));
 // Flattened to 80 % of their height: stiffness C0 V0/V_e with V0/V_e = 1.25, glue unchanged.
 INSTANTIATE_TEST_SUITE_P(Flattened, ReferenceModuli,
-                         testing::Values(Case{"plywood", "_flat_compacted_0.2", 0.2, 3, 0.001},
-                                         Case{"lvl", "_flat_compacted_0.2", 0.2, 3, 0.001},
-                                         Case{"osb_s1", "_flat_compacted_0.2", 0.2, 3, 0.01},
-                                         Case{"osl_s1", "_flat_compacted_0.2", 0.2, 3, 0.01}));
+                         testing::Values(Case{"plywood", "_flat_compacted_0.2", 0.2, 3, 1e-4},
+                                         Case{"lvl", "_flat_compacted_0.2", 0.2, 3, 1e-4},
+                                         Case{"osb_s1", "_flat_compacted_0.2", 0.2, 3, 5e-4},
+                                         Case{"osl_s1", "_flat_compacted_0.2", 0.2, 3, 3e-4}));
 
 // Without gaps nothing slips in tension or pure bending: the glue cannot matter.
 TEST(LaminatesWithoutGaps, DoNotFeelTheGlueInTensionAndEndRotation) {
@@ -89,10 +88,10 @@ TEST(LaminatesWithoutGaps, DoNotFeelTheGlueInTensionAndEndRotation) {
     double worst = 0;
     for (const auto& m : result.moduli) {
       const double ratio = m.modulus_MPa / find(result, m.kind, 0).modulus_MPa;
-      EXPECT_NEAR(ratio, 1, 1e-6) << mat << ", " << name(m.kind);
       worst = std::max(worst, std::abs(ratio - 1));
     }
-    report(fmt::format("{}: largest change of tension and end-rotation moduli, 1/D_t = 0 to 0.05", mat), worst, "1e-6");
+    report(fmt::format("{}: largest change of tension and end-rotation moduli, 1/D_t = 0 to 0.05", mat), worst,
+           below(1e-10).because(test::kRoundOff));
   }
 }
 

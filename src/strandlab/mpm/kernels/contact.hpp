@@ -145,6 +145,9 @@ STRANDLAB_INLINE double contact_pass(Meeting<Dim>* m, int fields, Pair<Dim>* pai
   return __builtin_sqrt(largest);
 }
 
+// Nothing changes any more: the last pass changed no velocity by more than this part of the first pass's change.
+inline constexpr double kContactTolerance = 1e-6;
+
 // The impulses of all pairs at a node, then the velocities of its first `real` fields (images follow them) and the
 // energies lost.
 template <int Dim>
@@ -171,13 +174,14 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
     const Meeting<Dim>&a = m[pairs[p].a], &b = m[pairs[p].b];
     pairs[p].reduced = 1 / (a.partners * a.inverse_mass + b.partners * b.inverse_mass);
   }
-  const int passes = count == 1 ? 1 : 40;
-  double first = 0;
+  double first = 0, last = 0;                          // change of velocity in a pass
+  const int passes = count == 1 ? 1 : kContactPasses;  // for one pair one pass is exact
   for (int k = 0; k < passes; ++k) {
-    const double change = contact_pass<Dim>(m, fields, pairs, count);
-    if (k == 0) first = change;
-    if (change <= 1e-6 * first) break;
+    last = contact_pass<Dim>(m, fields, pairs, count);
+    if (k == 0) first = last;
+    if (last <= kContactTolerance * first) break;
   }
+  if (count > 1 && last > kContactTolerance * first) ++result.unconverged;
   // Work of each impulse on the mean relative velocity of the step (all its forces included): what the pair lost.
   for (int p = 0; p < count; ++p) {
     const Pair<Dim>& pair = pairs[p];

@@ -1,0 +1,203 @@
+// Loads on bodies in two and three dimensions: gravity and its work, tractions, springs.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "strandlab/mpm/engine.hpp"
+#include "support/near.hpp"
+
+namespace strandlab::mpm {
+namespace {
+
+using test::VecNear;
+
+constexpr double kCell = 0.5;  // mm
+
+// A block of 8 (x 6) x 4 particles, two per cell and axis, its lowest corner at `corner`.
+template <int Dim>
+Body<Dim> block_at(const Vec<Dim>& corner) {
+  Strand<Dim> s;
+  s.kind = "block";
+  wood::Material stiff = wood::library().front();
+  stiff.Y_R = stiff.Y_T = stiff.S_RT = 1e6;  // never yields
+  s.material = wood::in_strand_axes(stiff, 0);
+  s.points.fill(6);
+  s.points[0] = 8;
+  s.points[Dim - 1] = 4;
+  s.spacing = Vec<Dim>::Constant(kCell / 2);
+  int count = 1;
+  for (const int n : s.points) count *= n;
+  for (int p = 0; p < count; ++p) {
+    Vec<Dim> x;
+    int rest = p;
+    for (int a = 0; a < Dim; ++a) {
+      x[a] = corner[a] + (rest % s.points[a] + 0.5) * s.spacing[a];
+      rest /= s.points[a];
+    }
+    s.x.push_back(x);
+  }
+  s.v.assign(s.x.size(), Vec<Dim>::Zero());
+  s.F.assign(s.x.size(), Tensor<Dim>::Identity());
+  s.stress.assign(s.x.size(), Voigt::Zero());
+  s.plastic.assign(s.x.size(), 0.0);
+  return body_of(s);
+}
+
+template <int Dim>
+Grid<Dim> open_grid() {
+  Grid<Dim> grid;
+  grid.cell = Vec<Dim>::Constant(kCell);
+  grid.origin = Vec<Dim>::Constant(0.11);
+  grid.lo = Vec<Dim>::Constant(-4);
+  grid.hi = Vec<Dim>::Constant(12);
+  return grid;
+}
+
+template <int Dim>
+double mass_of(const Body<Dim>& body) {
+  return body.material.density * body.spacing.prod() * static_cast<double>(body.x.size());
+}
+
+template <int Dim>
+Vec<Dim> mean(const std::vector<Vec<Dim>>& values) {
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  for (const auto& v : values) sum += v;
+  return sum / static_cast<double>(values.size());
+}
+
+// Gravity works m g times the way of the centre of mass, whatever holds the bodies up on it: one block falls free, one
+// falls onto another that lies on the platen.
+template <int Dim>
+void expect_work_of_gravity() {
+  constexpr int y = Dim - 1;
+  Vec<Dim> g = Vec<Dim>::Constant(2e7);  // mm/s^2: a height of cells within a few hundred steps
+  g[y] = -2e8;
+  Vec<Dim> apart = Vec<Dim>::Zero(), above = Vec<Dim>::Zero();
+  apart[0] = 5;
+  apart[y] = 4;
+  above[y] = 4 * kCell / 2 + 0.05;
+  std::vector<Body<Dim>> bodies{block_at<Dim>(Vec<Dim>::Zero()), block_at<Dim>(above), block_at<Dim>(apart)};
+  for (auto& v : bodies[1].v) v[y] = -20000;  // mm/s: over the gap within 70 steps
+  std::vector<Vec<Dim>> start;
+  for (const auto& body : bodies) start.push_back(mean<Dim>(body.x));
+  Engine<Dim> engine(bodies, open_grid<Dim>(), {});
+  engine.set_platens({0, 0}, {12, 0});
+  engine.set_gravity(g);
+  for (int step = 0; step < 300; ++step) engine.step();
+  engine.write(bodies);
+  double work = 0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) work += mass_of(bodies[b]) * g.dot(mean<Dim>(bodies[b].x) - start[b]);
+  EXPECT_NEAR(engine.energies().external_work / work, 1, 1e-9);
+  EXPECT_GT(engine.energies().contact, 0);  // they met
+  EXPECT_GT(mean<Dim>(bodies[1].v)[y], -15000);
+  EXPECT_THAT(mean<Dim>(bodies[2].v),
+              VecNear(Vec<Dim>(engine.state().time_s * g), 1e-9 * g.norm() * engine.state().time_s));
+}
+
+TEST(Gravity, WorksWeightTimesHeight2D) {
+  expect_work_of_gravity<2>();
+}
+TEST(Gravity, WorksWeightTimesHeight3D) {
+  expect_work_of_gravity<3>();
+}
+
+// A block under uniform stress is at rest under the tractions sigma n on all its faces: the forces cancel at every node
+// of the grid (divergence theorem), wherever the faces lie.
+template <int Dim>
+void expect_tractions_balance_stress() {
+  Body<Dim> body = block_at<Dim>(Vec<Dim>::Constant(0.2));
+  Voigt tau = Voigt::Zero();
+  tau << 3, Dim == 3 ? -2.0 : 0.0, 1, Dim == 3 ? 0.7 : 0.0, 0.5, Dim == 3 ? -0.4 : 0.0;  // MPa; 11 22 33 23 13 12
+  for (auto& s : body.stress) s = tau;
+  Tensor<Dim> sigma;
+  if constexpr (Dim == 2)
+    sigma << tau[0], tau[4], tau[4], tau[2];
+  else
+    sigma << tau[0], tau[5], tau[4], tau[5], tau[1], tau[3], tau[4], tau[3], tau[2];
+  std::vector<Body<Dim>> bodies{body};
+  Engine<Dim> engine(bodies, open_grid<Dim>(), {});
+  const double dt = engine.state().time_step_s;
+  ASSERT_EQ(body.faces.size(), 2U * Dim);
+  for (std::size_t f = 0; f < body.faces.size(); ++f)
+    engine.set_traction(0, static_cast<int>(f), sigma * body.faces[f].area[0].normalized());
+  engine.step();
+  engine.write(bodies);
+  const double unbalanced = dt * sigma.norm() / (body.material.density * kCell);  // mm/s, by one face alone
+  for (const auto& v : bodies[0].v) ASSERT_THAT(v, VecNear(Vec<Dim>(Vec<Dim>::Zero()), 1e-12 * unbalanced));
+  EXPECT_NEAR(engine.energies().external_work, 0, 1e-12 * unbalanced);
+}
+
+TEST(Traction, BalancesAnEqualStressNodeByNode2D) {
+  expect_tractions_balance_stress<2>();
+}
+TEST(Traction, BalancesAnEqualStressNodeByNode3D) {
+  expect_tractions_balance_stress<3>();
+}
+
+// One face alone: momentum t A per second, and its work is found again in the block.
+template <int Dim>
+void expect_traction_pushes() {
+  for (std::size_t face = 0; face < 2U * Dim; ++face) {
+    std::vector<Body<Dim>> bodies{block_at<Dim>(Vec<Dim>::Constant(0.2))};
+    Engine<Dim> engine(bodies, open_grid<Dim>(), {});
+    Vec<Dim> traction = Vec<Dim>::Constant(0.3);  // MPa
+    traction[Dim - 1] = -0.2;
+    engine.set_traction(0, static_cast<int>(face), traction);
+    double area = 0;
+    for (const auto& a : bodies[0].faces[face].area) area += a.norm();
+    for (int step = 0; step < 60; ++step) engine.step();
+    const Vec<Dim> expected = engine.state().time_s * area * traction;
+    EXPECT_THAT(engine.momentum(), VecNear(expected, 1e-12 * expected.norm())) << bodies[0].faces[face].name;
+    const auto e = engine.energies();
+    EXPECT_GT(e.external_work, 0);
+    EXPECT_NEAR((e.kinetic + e.elastic + e.filter) / e.external_work, 1, 0.01) << bodies[0].faces[face].name;
+  }
+}
+
+TEST(Traction, PushesByItsAreaAndWorksOnItsWay2D) {
+  expect_traction_pushes<2>();
+}
+TEST(Traction, PushesByItsAreaAndWorksOnItsWay3D) {
+  expect_traction_pushes<3>();
+}
+
+// A spring between two blocks, of which one moves off: after the first step it is stretched by [u] = v dt; in the
+// second it pulls both with area (k_n [u_n] + k_t [u_t]), and holds half that times [u].
+template <int Dim>
+void expect_spring_pulls() {
+  Vec<Dim> other = Vec<Dim>::Zero();
+  other[0] = 6;
+  std::vector<Body<Dim>> bodies{block_at<Dim>(Vec<Dim>::Zero()), block_at<Dim>(other)};
+  Vec<Dim> v = Vec<Dim>::Constant(3), normal = Vec<Dim>::Constant(0.48);  // mm/s
+  v[0] = -2;
+  normal[0] = 0.6;
+  normal[Dim - 1] = std::sqrt(1 - normal.head(Dim - 1).squaredNorm());
+  for (auto& velocity : bodies[1].v) velocity = v;
+  const double area = 0.7, k_t = 20, k_n = 50;
+  Engine<Dim> engine(bodies, open_grid<Dim>(), {});
+  engine.set_springs({{{0, 3, bodies[0].spacing * 0.5}, {1, 8, bodies[0].spacing * -0.3}, normal, area, k_t, k_n}});
+  engine.step();
+  const double dt1 = engine.state().time_step_s;
+  const Vec<Dim> jump = dt1 * v, opening = jump.dot(normal) * normal;
+  const Vec<Dim> pull = area * (k_n * opening + k_t * (jump - opening));  // N, on the first block
+  EXPECT_NEAR(engine.spring_energy(), 0.5 * pull.dot(jump), 1e-12 * pull.norm() * jump.norm());
+  engine.step();
+  engine.write(bodies);
+  const double dt2 = engine.state().time_step_s;
+  const Vec<Dim> of_first = mass_of(bodies[0]) * mean<Dim>(bodies[0].v);
+  const Vec<Dim> of_second = mass_of(bodies[1]) * (mean<Dim>(bodies[1].v) - v);
+  EXPECT_THAT(of_first, VecNear(Vec<Dim>(dt2 * pull), 1e-10 * dt2 * pull.norm()));
+  EXPECT_THAT(of_second, VecNear(Vec<Dim>(-dt2 * pull), 1e-9 * dt2 * pull.norm()));
+}
+
+TEST(Spring, PullsAlongAndAcrossItsNormal2D) {
+  expect_spring_pulls<2>();
+}
+TEST(Spring, PullsAlongAndAcrossItsNormal3D) {
+  expect_spring_pulls<3>();
+}
+
+}  // namespace
+}  // namespace strandlab::mpm
