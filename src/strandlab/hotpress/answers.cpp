@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kFlat = .1;        // K/s
 constexpr double kLeastBond = .05;  // of the strength fully cured: below it there is no bond
+constexpr double kMuchPrecure = .5;  // of the face layers: the outermost ones gel while any press closes
 
 using Records = std::vector<Instant>;
 
@@ -99,6 +100,19 @@ double blow_of(const Instant& i, const Settings& s) {
   return worst;
 }
 
+// Part of the face layers whose resin has gelled when the press has last closed.
+double precured_part(const Records& record, const transfer::Resin& resin) {
+  const auto closed = std::find_if(record.rbegin(), record.rend(), [](const Instant& i) { return i.mark == "closed"; });
+  if (closed == record.rend()) return 0;
+  double faces = 0, gelled = 0;
+  for (const auto& cell : closed->cells) {
+    if (!cell.face) continue;
+    ++faces;
+    if (cell.cure_face > resin.gel) ++gelled;
+  }
+  return faces > 0 ? gelled / faces : 0;
+}
+
 }  // namespace
 
 Answers answers(const Cycle& cycle) {
@@ -134,6 +148,7 @@ Answers answers(const Cycle& cycle) {
   a.M_face = .5 * (end.cells.front().M + end.cells.back().M);
   a.M_core = core(end).M;
   for (const auto& cell : end.cells) a.M_mean += cell.M / static_cast<double>(end.cells.size());
+  a.precured = precured_part(record, s.resin_face);
   a.heat = end.heat;
   a.water_out = end.water_out;
   return a;
@@ -160,18 +175,11 @@ std::vector<std::string> remarks(const Cycle& cycle, const Answers& a) {
                     "& Winandy)",
                     1e-3 * a.gas_at_opening, 1e-3 * kRiskyGas));
   }
-  const auto closed =
-      std::find_if(cycle.record.rbegin(), cycle.record.rend(), [](const Instant& i) { return i.mark == "closed"; });
-  if (closed == cycle.record.rend()) return list;
-  double cure = 0;
-  for (const auto& cell : closed->cells)
-    if (cell.face) cure = std::max(cure, cell.cure_face);
-  const auto& resin = cycle.settings.resin_face;
-  if (cure > resin.gel) {
+  if (a.precured > kMuchPrecure) {
     list.push_back(
-        fmt::format("precure: {} at a face has gelled (cure {:.2f}) before the press has closed at {:g} s; close "
-                    "faster, or expect weak skins",
-                    resin.name, cure, closed->time));
+        fmt::format("precure: {} has gelled in {:.0f} % of the face layers before the press has closed; close "
+                    "faster, or expect weak faces",
+                    cycle.settings.resin_face.name, 100 * a.precured));
   }
   return list;
 }

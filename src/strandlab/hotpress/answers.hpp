@@ -39,6 +39,7 @@ struct Answers {
   DensityAnswer density;                                              // at the end of the hold
   double M_face = 0, M_core = 0, M_mean = 0;                          // when the press begins to open
   double heat = 0, water_out = 0;                                     // J/m^2, kg/m^2 when the press begins to open
+  double precured = 0;  // part of the face layers whose resin gels before the press has closed
   // Gas pressure over the strength of the bond that holds it, the largest of all layers from when the press begins to
   // open. Relative: compare schedules by it.
   double blow = 0;

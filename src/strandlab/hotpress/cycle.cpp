@@ -185,11 +185,11 @@ class Press {
       return true;
     }
     limited_ = stopped_ = false;
-    column_.press_to(move.height, seconds);
-    if (column_.stress() + gas_pressure >= 0) return true;
-    column_ = before;
     column_.load(-gas_pressure, seconds);
-    return false;
+    if (column_.height() <= move.height) return false;
+    column_ = before;
+    column_.press_to(move.height, seconds);
+    return true;
   }
 
   transfer::Conditions conditions(double time, double begin, double end, const std::vector<double>& before,

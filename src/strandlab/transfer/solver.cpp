@@ -164,7 +164,6 @@ bool Solver::try_step(double seconds, const ConditionsAt& conditions) {
 // Newton's method; the update of the last iteration is made too, so that the residual left is round-off.
 bool Solver::solve_stage(Stage& stage) const {
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
-    ++iterations_;
     const auto at = equations_at(constants_, grid_, stage.state, stage.conditions);
     const Eigen::VectorXd residual = stage.target + stage.weight * at.receives - at.holds;
     const auto scales = row_scales(grid_, stage.conditions.thickness, at.holds);

@@ -75,7 +75,6 @@ class Solver {
   const Amounts& balance_error() const { return error_; }  // of the last step, relative
   const Amounts& worst_balance_error() const { return worst_error_; }
   Amounts drift() const;  // content now - content at the start - received, relative: the errors of all steps
-  long iterations() const { return iterations_; }
 
  private:
   struct Stage;
@@ -92,7 +91,6 @@ class Solver {
   Eigen::VectorXd holds_;  // by 3 * cell + Row
   double time_ = 0;
   Amounts start_{}, received_{}, error_{}, worst_error_{};
-  mutable long iterations_ = 0;
 };
 
 }  // namespace strandlab::transfer
