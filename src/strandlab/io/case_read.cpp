@@ -13,6 +13,7 @@
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/io/case.hpp"
 #include "strandlab/io/case_keys.hpp"
+#include "strandlab/transfer/cure.hpp"
 
 namespace strandlab::io {
 namespace {
@@ -146,7 +147,10 @@ std::string did_you_mean(const std::string& given, const std::vector<std::string
 
 [[noreturn]] void throw_unknown_section(const Given& given) {
   std::vector<std::string> known;
-  for (const auto& s : sections()) known.push_back(split(s.path)[0]);
+  for (const auto& s : sections()) {
+    const auto first = split(s.path)[0];
+    if (std::find(known.begin(), known.end(), first) == known.end()) known.push_back(first);
+  }
   const auto name = fmt::format("{}", fmt::join(given.path, "."));
   throw InputError(fmt::format("{}: unknown section [{}]{} Sections: {}", given.where, name,
                                did_you_mean(given.path[0], known), fmt::join(known, ", ")));
@@ -193,7 +197,7 @@ void flatten(const Source& source, const toml::table& table, const Path& prefix,
       continue;
     }
     if (!is_section(given.path)) throw_unknown_section(given);
-    if (given.path.size() == 2) out.push_back({given.path, nullptr, given.where});
+    out.push_back({given.path, nullptr, given.where});
     flatten(source, *node.as_table(), given.path, out);
   }
 }
@@ -321,8 +325,12 @@ void apply(Case& c, const Given& given) {
   key->set(c, name, *value);
 }
 
-// [kinds.NAME] and [materials.NAME] come to be when they are first mentioned.
+// [kinds.NAME], [materials.NAME], [resins.NAME] and [hotpress] come to be when they are first mentioned.
 void make_instance(Case& c, const Given& given) {
+  if (given.path[0] == "hotpress") c.hotpress.given = true;
+  const bool named = std::any_of(sections().begin(), sections().end(),
+                                 [&](const Section& s) { return s.path == given.path[0] + ".*"; });
+  if (given.path.size() != 2 || !named) return;
   const auto& name = given.path[1];
   const auto section = given.path[0] + ".*";
   const bool plain =
@@ -338,6 +346,15 @@ void make_instance(Case& c, const Given& given) {
     KindSettings kind;
     kind.name = name;
     c.kinds.push_back(kind);
+    return;
+  }
+  if (section == "resins.*") {
+    for (const auto& built_in : transfer::resins()) {
+      if (built_in.name == name)
+        throw InputError(
+            fmt::format("{}: [resins.{}]: a built-in resin has this name, choose another", given.where, name));
+    }
+    c.resins.push_back({name});
     return;
   }
   for (const auto& built_in : wood::library()) {
@@ -428,6 +445,9 @@ void check_case(const Case& c, const std::vector<Given>& given, const std::strin
                                    wood::name(kind.material.law), e.what()));
     }
   }
+  check_hotpress(c, [&](const std::string& key, const std::string& message) {
+    throw InputError(fmt::format("{}: {}: {}", where_of(given, source, split(key)), key, message));
+  });
   mat::Layup rows;
   try {
     rows = layup(c);
@@ -473,13 +493,14 @@ void use_bondline(Case& c, const fs::path& file) {
 
 Case case_from_sources(Case c, const std::vector<Source>& sources) {
   std::vector<Given> given;
-  fs::path mat_folder, bondline_folder;
+  fs::path mat_folder, bondline_folder, log_folder;
   for (const auto& source : sources) {
     const auto first = given.size();
     flatten(source, source.table, {}, given);
     for (auto i = first; i < given.size(); ++i) {
       if (given[i].path == Path{"mat", "file"}) mat_folder = source.folder;
       if (given[i].path == Path{"glue", "from_bondline"}) bondline_folder = source.folder;
+      if (given[i].path == Path{"hotpress", "log", "file"}) log_folder = source.folder;
     }
   }
   for (const auto& g : given) {
@@ -492,6 +513,7 @@ Case case_from_sources(Case c, const std::vector<Source>& sources) {
   for (const auto& g : ordered) apply(c, g);
   make_absolute(c.mat_file, mat_folder);
   make_absolute(c.bondline_file, bondline_folder);
+  make_absolute(c.hotpress.log_file, log_folder);
   check_case(c, given, sources.front().name);
   return c;
 }
