@@ -9,8 +9,8 @@
 namespace strandlab::hotpress {
 namespace {
 
-constexpr double kFlat = .1;        // K/s
-constexpr double kLeastBond = .05;  // of the strength fully cured: below it there is no bond
+constexpr double kFlat = .1;         // K/s
+constexpr double kLeastBond = .05;   // of the strength fully cured: below it there is no bond
 constexpr double kMuchPrecure = .5;  // of the face layers: the outermost ones gel while any press closes
 
 using Records = std::vector<Instant>;
@@ -138,9 +138,14 @@ Answers answers(const Cycle& cycle) {
     if (i.time >= a.opening - 1e-9) a.blow = std::max(a.blow, blow_of(i, s));
   }
   for (const auto& cell : end.cells) a.gas_at_opening = std::max(a.gas_at_opening, cell.gas);
-  a.resins = {resin_answer(record, end, true, s.resin_face), resin_answer(record, end, false, s.resin_core)};
-  if (a.resins[0].cured_at && a.resins[1].cured_at)
-    a.press_time = std::max(*a.resins[0].cured_at, *a.resins[1].cured_at);
+  a.press_time = record.front().time;
+  for (const bool face : {true, false}) {
+    const auto carries = [face](const CellReading& cell) { return cell.face == face; };
+    if (std::none_of(end.cells.begin(), end.cells.end(), carries)) continue;
+    a.resins.push_back(resin_answer(record, end, face, face ? s.resin_face : s.resin_core));
+    const auto& cured_at = a.resins.back().cured_at;
+    a.press_time = a.press_time && cured_at ? std::optional(std::max(*a.press_time, *cured_at)) : std::nullopt;
+  }
   a.thickness_closed = end.thickness;
   a.thickness_opened = record.back().mark == "opened" ? record.back().thickness : cycle.thickness_unloaded;
   if (a.press_time) a.press_factor = *a.press_time / a.thickness_closed;

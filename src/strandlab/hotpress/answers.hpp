@@ -31,7 +31,7 @@ struct Answers {
   double gas_peak = 0, gas_peak_time = 0;                             // Pa, s: in the core
   double gas_at_opening = 0;                                          // Pa, the largest of all layers
   double pressure_peak = 0, pressure_peak_time = 0, stress_peak = 0;  // Pa, s; not numbers without mechanics
-  std::vector<ResinAnswer> resins;                                    // face, core
+  std::vector<ResinAnswer> resins;                                    // face, core: where a layer carries it
   std::optional<double> press_time;                                   // s: both are cured
   double opening = 0;                                                 // s: when the press begins to open
   double thickness_closed = 0, thickness_opened = 0;                  // m

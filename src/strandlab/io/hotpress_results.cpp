@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace strandlab::io {
@@ -33,10 +34,11 @@ const CellReading& core(const Instant& i) {
   return i.cells[i.cells.size() / 2];
 }
 
+// Not a number where no layer carries the resin.
 double least_cure(const Instant& i, bool face) {
-  double least = 1;
+  double least = std::numeric_limits<double>::quiet_NaN();
   for (const auto& cell : i.cells)
-    if (cell.face == face) least = std::min(least, cell.cure());
+    if (cell.face == face && !(cell.cure() >= least)) least = cell.cure();
   return least;
 }
 

@@ -220,6 +220,16 @@ TEST(Cycle, RemarksOnCureGasAndPrecure) {
   EXPECT_TRUE(told(tight, "MDF delaminated above 100 kPa"));
 }
 
+// All of the mat is face: there is no core resin to wait for.
+TEST(Answers, OneResin) {
+  auto s = quick({"close to 12 mm in 25 s", "hold until 200 s"});
+  s.face_fraction = .5;
+  const auto a = answers(press_hot(s, kMat));
+  ASSERT_EQ(a.resins.size(), 1u);
+  EXPECT_EQ(a.resins[0].resin, "pf");
+  EXPECT_EQ(a.press_time, a.resins[0].cured_at);
+}
+
 TEST(Answers, RiskInWords) {
   EXPECT_STREQ(risk(.3), "low");
   EXPECT_STREQ(risk(.7), "watch");
