@@ -15,6 +15,7 @@ void add_test(CLI::App& app);
 void add_run(CLI::App& app);
 void add_theory(CLI::App& app);
 void add_bondline(CLI::App& app);
+void add_hotpress(CLI::App& app);
 void add_profile(CLI::App& app);
 void add_report(CLI::App& app);
 void add_movie(CLI::App& app);

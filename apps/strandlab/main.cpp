@@ -64,6 +64,7 @@ int run(int argc, char** argv) {
   strandlab::app::add_movie(app);
   strandlab::app::add_theory(app);
   strandlab::app::add_bondline(app);
+  strandlab::app::add_hotpress(app);
   strandlab::app::add_profile(app);
   strandlab::app::add_bench(app);
   if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);

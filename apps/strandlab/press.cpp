@@ -236,6 +236,8 @@ void do_press(Journey& journey, Console& console) {
   console.log_to(folder.file("log.txt"));
   for (const auto& warning : warnings) console.warn(warning);
   for (const auto& line : io::derived_constants(journey.c)) console.say(line);
+  if (journey.c.hotpress.given)
+    console.warn("the case has [hotpress], but this pressing is cold; strandlab hotpress presses its mat hot");
   const int threads = io::thread_count(journey.c);
   const auto particles = io::estimate(journey.c, journey.panel).particles;
   console.say(resume ? fmt::format("press: going on from compaction {:.4f}", resume->panel.compaction())

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "strandlab/io/hotpress_case.hpp"
 #include "strandlab/mat/form.hpp"
 #include "strandlab/mpm/engine.hpp"
 #include "strandlab/panel/panel.hpp"
@@ -53,6 +54,8 @@ struct Case {
   wood::OffAxis off_axis = wood::OffAxis::kExact;
   std::vector<KindSettings> kinds;
   std::vector<MaterialSettings> materials;
+  std::vector<ResinSettings> resins;
+  HotPressSettings hotpress;
   press::Schedule schedule;
   mpm::Side sides = mpm::Side::kRoller;
   press::Resolution grid;

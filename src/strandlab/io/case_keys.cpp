@@ -422,6 +422,132 @@ void add_run_keys(std::vector<Key>& t) {
       [](auto& c) -> auto& { return c.checkpoint_interval_s; })));
 }
 
+Key resin_key(const std::string& name, std::string unit, Range range, std::string help, double ResinSettings::*member) {
+  return make_key(
+      "resins.*." + name, std::move(unit), range,
+      std::move(help), [member](auto& c, const std::string& resin) -> auto& {
+        return find_named(c.resins, resin, [](const ResinSettings& r) { return r.name; }).*member;
+      });
+}
+
+// Of the hot press; a cold run does not depend on them.
+template <class T>
+Key hot_key(const std::string& name, std::string unit, Range range, std::string help, T HotPressSettings::*member) {
+  return same_results(key(
+      "hotpress." + name, std::move(unit), range,
+      std::move(help), [member](auto& c) -> auto& { return c.hotpress.*member; }));
+}
+template <class T>
+Key log_key(const std::string& name, std::string help, T hotpress::LogColumns::*member) {
+  return same_results(key(
+      "hotpress.log." + name, "", kAny,
+      std::move(help), [member](auto& c) -> auto& { return c.hotpress.log_columns.*member; }));
+}
+template <class T>
+Key softening_key(const std::string& name, std::string unit, Range range, std::string help,
+                  T hotpress::Softening::*member) {
+  return same_results(key(
+      "hotpress.softening." + name, std::move(unit), range,
+      std::move(help), [member](auto& c) -> auto& { return c.hotpress.softening.*member; }));
+}
+
+void add_hotpress_schedule_keys(std::vector<Key>& t) {
+  using H = HotPressSettings;
+  const Range temperature{.lo = 20, .hi = 300};
+  t.push_back(with_choices(hot_key("mechanics", "", kAny,
+                                   "how the mat resists: as a column of its layers without gaps, or not at all, of "
+                                   "uniform density",
+                                   &H::mechanics),
+                           [](const Case&) -> std::vector<std::string> {
+                             return {"column", "uniform"};
+                           }));
+  t.push_back(
+      hot_key("platen_C", "C", temperature, "temperature of the platens; above 220 with a warning", &H::platen_C));
+  t.push_back(hot_key("platen_program", "", kAny,
+                      "platen temperature against seconds since first contact in place of platen_C, as in \"0 200, 60 "
+                      "190\"; \"\": platen_C",
+                      &H::platen_program));
+  t.push_back(hot_key("platen_bottom_program", "", kAny, "the same for the bottom platen; \"\": as the top one",
+                      &H::platen_bottom_program));
+  t.push_back(hot_key("bottom_lead_s", "s", {.lo = 0, .hi = 600},
+                      "the mat lies on the hot bottom platen so long before the press touches it", &H::bottom_lead_s));
+  t.push_back(
+      hot_key("schedule", "", kAny,
+              "phases: close (by position or pressure), hold, vent, open; mm, kg/m3 (oven-dry), % compaction, s, "
+              "mm/s, MPa (docs/hotpress.md)",
+              &H::schedule));
+  t.push_back(hot_key("max_mm_per_s", "mm/s", kPositive, "fastest closing under pressure", &H::max_mm_per_s));
+}
+
+void add_hotpress_mat_keys(std::vector<Key>& t) {
+  using H = HotPressSettings;
+  const Range moisture{.lo = 0, .hi = 0.3}, fraction{.lo = 0, .hi = 0.5};
+  t.push_back(hot_key("moisture_face", "kg/kg", moisture, "moisture content of the faces; above 0.25 with a warning",
+                      &H::moisture_face));
+  t.push_back(hot_key("moisture_core", "kg/kg", moisture, "moisture content of the core", &H::moisture_core));
+  t.push_back(hot_key("face_fraction", "", fraction, "part of the mat's mass that each face is", &H::face_fraction));
+  t.push_back(hot_key("panel_width_mm", "mm", kPositiveOrInfinite,
+                      "width of the panel, along which gas escapes to the edges; inf: sealed edges",
+                      &H::panel_width_mm));
+  t.push_back(hot_key("cells", "", {.lo = 4, .hi = 400}, "cells of equal mass through the mat", &H::cells));
+  t.push_back(hot_key("step_s", "s", {.lo = 0.001, .hi = 2}, "time step to 30 s; twice that to 90 s, then four times",
+                      &H::step_s));
+  t.push_back(hot_key("rate_exponent", "", {.lo = 0, .hi = 0.5}, "stress grows as this power of the rate of crushing",
+                      &H::rate_exponent));
+}
+
+void add_hotpress_keys(std::vector<Key>& t) {
+  using H = HotPressSettings;
+  using S = hotpress::Softening;
+  using L = hotpress::LogColumns;
+  add_hotpress_schedule_keys(t);
+  add_hotpress_mat_keys(t);
+  t.push_back(with_choices(
+      hot_key("resin.face", "", kAny, "resin of the faces, built in or of [resins]", &H::resin_face), resin_names));
+  t.push_back(with_choices(hot_key("resin.core", "", kAny, "resin of the core", &H::resin_core), resin_names));
+  t.push_back(softening_key("r", "", {.lo = 0, .hi = 1, .lo_open = true},
+                            "what heat leaves of stiffness and yield far above the softening point", &S::floor));
+  t.push_back(softening_key("kappa_dry", "1/K", kNotNegative, "decay with temperature of dry wood", &S::kappa_dry));
+  t.push_back(softening_key("kappa_wet", "1/K", kNotNegative, "of wood of more than about 10 %", &S::kappa_wet));
+  t.push_back(softening_key("k_yield", "", kNotNegative, "fall of ln yield per % of moisture content", &S::k_yield));
+  t.push_back(softening_key("k_stiffness", "", kNotNegative, "fall of ln stiffness per % of moisture content",
+                            &S::k_stiffness));
+  t.push_back(
+      hot_key("permeability.K400_m2", "m2", kPositive, "of a mat of 400 kg/m3, through the thickness", &H::K400_m2));
+  t.push_back(
+      hot_key("permeability.slope", "m3/kg", kNotNegative, "fall of its decimal logarithm with density", &H::slope));
+  t.push_back(hot_key("permeability.in_plane_ratio", "", kPositive, "permeability along the panel over that",
+                      &H::in_plane_ratio));
+  t.push_back(hot_key("permeability.table", "", kAny,
+                      "permeability (m2) against density (kg/m3) in place of the formula, as in \"400 5e-12, 640 "
+                      "9.4e-14\"; \"\": the formula",
+                      &H::permeability_table));
+  t.push_back(hot_key("log.file", "", kAny,
+                      "record of a press's controller (CSV) to follow in place of the schedule; \"\" for none",
+                      &H::log_file));
+  t.push_back(log_key("time",
+                      "column of time: its name or number, with its unit where the header has none, as in \"1 s\"; "
+                      "\"\": found by its name",
+                      &L::time));
+  t.push_back(log_key("position", "column of the gap between the platens, likewise", &L::position));
+  t.push_back(
+      log_key("pressure", "column of the pressure on the mat, followed where there is no position", &L::pressure));
+  t.push_back(log_key("platen_top", "column of the top platen's temperature", &L::platen_top));
+  t.push_back(
+      log_key("platen_bottom", "column of the bottom platen's; as the top one where there is none", &L::platen_bottom));
+}
+
+void add_resin_keys(std::vector<Key>& t) {
+  using R = ResinSettings;
+  t.push_back(
+      same_results(resin_key("E_kJ_mol", "kJ/mol", kNotNegative, "activation energy; must be given", &R::E_kJ_mol)));
+  t.push_back(same_results(resin_key("A_1_s", "1/s", kNotNegative,
+                                     "rate of cure is A exp(-E/(R T)) (1 - cure)^n; must be given", &R::A_1_s)));
+  t.push_back(same_results(resin_key("n", "", {.lo = 0, .hi = 5, .lo_open = true}, "order of the cure", &R::n)));
+  t.push_back(same_results(resin_key("gel", "", {.lo = 0, .hi = 1, .hi_open = true},
+                                     "degree of cure from which on it has strength", &R::gel)));
+}
+
 // A text as TOML. A file name that is not UTF-8 is written with its bytes spelt out: TOML has no other bytes.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
@@ -465,6 +591,13 @@ const std::vector<Section>& sections() {
       {"materials.*",
        "a material of your own: a built-in one with some constants changed, or E_L_MPa with the ratios of a species"},
       {"press", "the press"},
+      {"hotpress",
+       "the hot press of `strandlab hotpress`: schedule, platens, moisture; the pressing of `strandlab run` is cold"},
+      {"hotpress.resin", "resins of the mat"},
+      {"hotpress.softening", "how heat and moisture soften wood across the grain"},
+      {"hotpress.permeability", "permeability of the mat to gas"},
+      {"hotpress.log", "record of a press to follow"},
+      {"resins.*", "a resin of your own; built in are pf and pmdi"},
       {"grid", "resolution of the pressing simulation"},
       {"glue", "glue lines of the cured panel"},
       {"test", "virtual tests"},
@@ -479,6 +612,8 @@ const std::vector<Key>& keys() {
     add_kind_keys(t);
     add_material_keys(t);
     add_press_keys(t);
+    add_hotpress_keys(t);
+    add_resin_keys(t);
     add_grid_keys(t);
     add_glue_keys(t);
     add_test_keys(t);
@@ -501,6 +636,10 @@ std::vector<std::string> instances(const Case& c, const std::string& section) {
     for (const auto& kind : c.kinds) names.push_back(kind.name);
   } else if (section == "materials.*") {
     for (const auto& material : c.materials) names.push_back(material.material.name);
+  } else if (section == "resins.*") {
+    for (const auto& resin : c.resins) names.push_back(resin.name);
+  } else if (section.rfind("hotpress", 0) == 0 && !c.hotpress.given) {
+    return names;
   } else {
     names.emplace_back();
   }

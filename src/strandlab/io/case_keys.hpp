@@ -47,7 +47,8 @@ const std::vector<Key>& keys();  // by section
 // The section of a key ("kinds.*" of "kinds.*.angle_deg") and its own name ("angle_deg").
 std::string section_of(const Key& key);
 std::string name_of(const Key& key);
-// Names that stand for the * of a section in this case; {""} for a section without one.
+// Names that stand for the * of a section in this case; {""} for a section without one, {} for those of [hotpress] in a
+// case that has none.
 std::vector<std::string> instances(const Case& c, const std::string& section);
 
 // Plain words for messages and the reference page: "a number", "greater than 0", the value as TOML.

@@ -18,6 +18,7 @@
 #include "strandlab/core/text.hpp"
 #include "strandlab/io/case.hpp"
 #include "strandlab/io/case_keys.hpp"
+#include "strandlab/transfer/cure.hpp"
 
 namespace strandlab::io {
 namespace {
@@ -189,7 +190,10 @@ std::string name_of(const Path& path) {
 
 [[noreturn]] void throw_unknown_section(const Given& given) {
   std::vector<std::string> known;
-  for (const auto& s : sections()) known.push_back(split(s.path)[0]);
+  for (const auto& s : sections()) {
+    const auto first = split(s.path)[0];
+    if (std::find(known.begin(), known.end(), first) == known.end()) known.push_back(first);
+  }
   const auto name = name_of(given.path);
   throw InputError(fmt::format("{}: unknown section [{}]{} Sections: {}", given.where, name,
                                did_you_mean(given.path[0], known), fmt::join(known, ", ")));
@@ -236,7 +240,7 @@ void flatten(const Source& source, const toml::table& table, const Path& prefix,
       continue;
     }
     if (!is_section(given.path)) throw_unknown_section(given);
-    if (given.path.size() == 2) out.push_back({given.path, nullptr, given.where});
+    out.push_back({given.path, nullptr, given.where});
     flatten(source, *node.as_table(), given.path, out);
   }
 }
@@ -419,8 +423,12 @@ void apply(Case& c, const Given& given) {
   key->set(c, name, *value);
 }
 
-// [kinds.NAME] and [materials.NAME] come to be when they are first mentioned.
+// [kinds.NAME], [materials.NAME], [resins.NAME] and [hotpress] come to be when they are first mentioned.
 void make_instance(Case& c, const Given& given) {
+  if (given.path[0] == "hotpress") c.hotpress.given = true;
+  const bool named = std::any_of(sections().begin(), sections().end(),
+                                 [&](const Section& s) { return s.path == given.path[0] + ".*"; });
+  if (given.path.size() != 2 || !named) return;
   const auto& name = given.path[1];
   const auto section = given.path[0] + ".*";
   const bool plain =
@@ -436,6 +444,15 @@ void make_instance(Case& c, const Given& given) {
     KindSettings kind;
     kind.name = name;
     c.kinds.push_back(kind);
+    return;
+  }
+  if (section == "resins.*") {
+    for (const auto& built_in : transfer::resins()) {
+      if (built_in.name == name)
+        throw InputError(
+            fmt::format("{}: [resins.{}]: a built-in resin has this name, choose another", given.where, name));
+    }
+    c.resins.push_back({name});
     return;
   }
   for (const auto& built_in : wood::library()) {
@@ -526,6 +543,9 @@ void check_case(const Case& c, const std::vector<Given>& given, const std::strin
                                    wood::name(kind.material.law), e.what()));
     }
   }
+  check_hotpress(c, [&](const std::string& key, const std::string& message) {
+    throw InputError(fmt::format("{}: {}: {}", where_of(given, source, split(key)), key, message));
+  });
   mat::Layup rows;
   try {
     rows = layup(c);
@@ -576,12 +596,13 @@ void use_bondline(Case& c, const fs::path& file) {
 
 Case case_from_sources(Case c, const std::vector<Source>& sources) {
   std::vector<Given> given;
-  fs::path mat_folder, bondline_folder;
+  fs::path mat_folder, bondline_folder, log_folder;
   for (const auto& source : sources) {
     const auto first = given.size();
     flatten(source, source.table, {}, given);
     for (auto i = first; i < given.size(); ++i) {
       if (!given[i].node) continue;
+      if (given[i].path == Path{"hotpress", "log", "file"}) log_folder = source.folder;
       const auto* key = find_key(given[i].path);
       if (!key->names_file) continue;
       const bool is_mat = key->path == "mat.file";
@@ -599,6 +620,7 @@ Case case_from_sources(Case c, const std::vector<Source>& sources) {
   for (const auto& g : ordered) apply(c, g);
   make_absolute(c.mat_file, mat_folder);
   make_absolute(c.bondline_file, bondline_folder);
+  make_absolute(c.hotpress.log_file, log_folder);
   c.places.rows = where_of(given, sources.front().name, {"mat", "rows"}) + ": mat.rows";
   check_case(c, given, sources.front().name);
   return c;

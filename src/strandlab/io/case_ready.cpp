@@ -49,6 +49,15 @@ const std::vector<Ready>& table() {
   static const std::vector<Ready> list{
       {"osb",
        "Oriented strand board: 20 rows of hybrid poplar, pressed to 40 % and tested with five qualities of glue.", ""},
+      {"hot_osb",
+       "Three-layer OSB of 12 mm and 640 kg/m3 for the hot press: strands that crush, PF in the faces, pMDI in the "
+       "core.\n"
+       "`strandlab hotpress` presses it as a column (docs/hotpress.md): how long to press, at what pressure, with "
+       "what\n"
+       "density profile. `strandlab run` still presses it cold.",
+       "[mat]\nrows = [\"surface*8\", \"core*18\", \"surface*8\"]\n[kinds.surface]\nlaw = \"crushing\"\n"
+       "[kinds.core]\nlaw = \"crushing\"\n[press]\nspeed_m_s = 4\n"
+       "[hotpress]\nschedule = [\"close to 640 kg/m3 in 25 s\", \"hold until 180 s\", \"vent 15 s\", \"open 60 s\"]\n"},
       {"osl", "Oriented strand lumber: all 20 rows along the panel.", "[mat]\nrows = [\"surface*20\"]\n"},
       {"plywood", "Plywood: the rows of the OSB case without gaps.", kFullRows},
       {"lvl", "Laminated veneer lumber: 20 rows along the panel without gaps.",

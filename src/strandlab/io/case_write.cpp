@@ -66,7 +66,7 @@ std::string default_text(const Key& key, const Case& defaults) {
     if (name_of(key) == "base") return "\"poplar\"";
     return name_of(key) == "species" ? "\"\"" : "that of the base";
   }
-  if (section != "kinds.*") return to_toml(key.get(defaults, ""));
+  if (section != "kinds.*") return to_toml(key.get(defaults, section == "resins.*" ? "NAME" : ""));
   const auto surface = to_toml(key.get(defaults, "surface")), core = to_toml(key.get(defaults, "core"));
   return surface == core ? surface : fmt::format("{}; core {}", surface, core);
 }
@@ -106,7 +106,7 @@ std::string commented_text(const Case& c, const std::string& title) {
   text += "\n# Any key that is left out has the value shown by `strandlab init osb`.\n\n";
   for (const auto& section : sections()) {
     const auto names = instances(c, section.path);
-    if (names.empty()) text += example_material();
+    if (section.path == "materials.*" && names.empty()) text += example_material();
     for (const auto& name : names) {
       text += fmt::format("[{}]  # {}\n", with_name(section.path, name), section.help);
       for_each_key(section.path, [&](const Key& key) {
@@ -120,7 +120,8 @@ std::string commented_text(const Case& c, const std::string& title) {
 }
 
 std::string reference_text() {
-  const Case defaults;
+  Case defaults;
+  defaults.resins.push_back({"NAME"});
   std::string text =
       "# Keys of a case file\n\nPrinted by `strandlab init --reference`. A case file is TOML; any key may be left out, "
       "and any key can be\n"
@@ -134,7 +135,9 @@ std::string reference_text() {
       const auto example =
           section.path == "materials.*"
               ? (name_of(key) == "base" || name_of(key) == "species" ? Value(std::string()) : Value(0.0))
-              : key.get(defaults, section.path == "kinds.*" ? "surface" : "");
+              : key.get(defaults, section.path == "kinds.*"    ? "surface"
+                                  : section.path == "resins.*" ? "NAME"
+                                                               : "");
       text += fmt::format("| `{}` | {} | {} | {} | `{}` | {} |\n", name_of(key), type_name(example), key.unit,
                           cell(allowed(key, defaults)), default_text(key, defaults), cell(key.help));
     });

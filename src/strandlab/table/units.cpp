@@ -69,6 +69,21 @@ constexpr std::array kUnits{
     Unit{Dimension::kDensity, "lbs/cuft", "", kPoundPerCubicFoot},
     Unit{Dimension::kDensity, "lbm/cuft", "", kPoundPerCubicFoot},
     Unit{Dimension::kDensity, "pcf", "pcf", kPoundPerCubicFoot},
+    Unit{Dimension::kPressure, "mpa", "MPa", 1},
+    Unit{Dimension::kPressure, "n/mm2", "N/mm2", 1},
+    Unit{Dimension::kPressure, "bar", "bar", 0.1},
+    Unit{Dimension::kPressure, "kpa", "kPa", 1e-3},
+    Unit{Dimension::kPressure, "kgf/cm2", "kgf/cm2", kKilopond / 100},
+    Unit{Dimension::kPressure, "kg/cm2", "", kKilopond / 100},
+    Unit{Dimension::kPressure, "psi", "psi", kPsi},
+    Unit{Dimension::kTime, "s", "s", 1},
+    Unit{Dimension::kTime, "sec", "", 1},
+    Unit{Dimension::kTime, "seconds", "", 1},
+    Unit{Dimension::kTime, "ms", "ms", 1e-3},
+    Unit{Dimension::kTime, "min", "min", 60},
+    Unit{Dimension::kTemperature, "c", "C", 1},
+    Unit{Dimension::kTemperature, "°c", "", 1},
+    Unit{Dimension::kTemperature, "degc", "", 1},
 };
 
 void replace_all(std::string& text, std::string_view what, std::string_view with) {

@@ -29,6 +29,11 @@ inline std::string other_value(const Key& key, const Case& c, const std::string&
   if (key.path == "glue.from_bondline") return "\"/data/dls.json\"";
   if (key.path == "glue.group") return "\"PF-25\"";
   if (key.path == "mat.rows") return "[\"core*3\"]";
+  if (key.path == "hotpress.schedule") return "[\"close to 12 mm in 25 s\"]";
+  if (key.path == "hotpress.log.file") return "\"/data/plc.csv\"";
+  if (key.path.rfind("hotpress.log", 0) == 0) return "\"3\"";
+  if (key.path == "hotpress.permeability.table") return "\"400 1e-12, 600 1e-14\"";
+  if (key.path == "hotpress.platen_program" || key.path == "hotpress.platen_bottom_program") return "\"0 190, 60 180\"";
   if (key.path == "test.kinds") return "[\"bending_end_couple\"]";
   if (key.path == "press.compactions") return "[0.05, 0.25]";
   if (key.choices) return to_toml(key.choices(c).back());
@@ -48,7 +53,7 @@ inline std::vector<Sample> samples() {
     const auto section = section_of(key);
     Sample s{&key, {}, name_of(key), {}, {}, {}};
     if (section == "kinds.*") s.name = "surface";
-    if (section == "materials.*") s.name = "mine";
+    if (section == "materials.*" || section == "resins.*") s.name = "mine";
     const auto title = section.substr(0, section.find(".*")) + (s.name.empty() ? "" : "." + s.name);
     s.section = "[" + title + "]";
     s.dotted = title + "." + s.key;

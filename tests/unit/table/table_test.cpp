@@ -222,5 +222,15 @@ TEST(Table, UnreadableFiles) {
   EXPECT_THROW(Table(std::filesystem::temp_directory_path(), quantities()), InputError);
 }
 
+// What controllers of presses record: 1 bar = .1 MPa, 1 kgf/cm2 = .0980665 MPa. A bar is no unit of a modulus.
+TEST(Table, UnitsOfAPress) {
+  EXPECT_DOUBLE_EQ(*unit_factor(Dimension::kPressure, "bar"), .1);
+  EXPECT_DOUBLE_EQ(*unit_factor(Dimension::kPressure, "kgf/cm2"), .0980665);
+  EXPECT_DOUBLE_EQ(*unit_factor(Dimension::kTime, "min"), 60);
+  EXPECT_DOUBLE_EQ(*unit_factor(Dimension::kTemperature, "°C"), 1);
+  EXPECT_FALSE(unit_factor(Dimension::kTemperature, "F"));
+  EXPECT_FALSE(unit_factor(Dimension::kModulus, "bar"));
+}
+
 }  // namespace
 }  // namespace strandlab::table

@@ -1,0 +1,91 @@
+// A whole press cycle through the thickness of a mat: the press closes, heat and steam go in, wood softens and is
+// crushed, resin cures, the press opens. Units are SI as in transfer/properties.hpp; times count from first contact.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "strandlab/hotpress/column.hpp"
+#include "strandlab/hotpress/log.hpp"
+#include "strandlab/hotpress/schedule.hpp"
+#include "strandlab/hotpress/softening.hpp"
+#include "strandlab/transfer/cure.hpp"
+#include "strandlab/transfer/solver.hpp"
+
+namespace strandlab::hotpress {
+
+// How the mat resists: as a column of its layers without gaps (column.hpp), or not at all, its density the same
+// everywhere at all times, so that the press is moved by position only.
+enum class Mechanics { kColumn, kUniform };
+
+// Wood of one material, bottom to top.
+struct MatLayer {
+  double dry_mass = 0;  // kg/m^2
+  wood::Material material;
+};
+struct PressedMat {
+  std::vector<MatLayer> layers;
+  double thickness = 0;  // m, as formed, with its gaps
+};
+
+struct Settings {
+  Mechanics mechanics = Mechanics::kColumn;
+  std::vector<Phase> schedule = parse_schedule(default_schedule());
+  std::optional<Log> log;                                            // followed in place of the schedule
+  std::vector<Point> platen_top{{0, 200}}, platen_bottom{{0, 200}};  // s, C; a log's own temperatures come first
+  double bottom_lead = 0;  // s: the bottom platen touches the mat so long before it is closed upon
+  double moisture_face = .08, moisture_core = .05;  // kg/kg
+  double face_fraction = .25;                       // of the dry mass, on each side
+  int cells = 40;                                   // through the thickness, of equal dry mass
+  double step = .25;                                // s, until 30 s; twice that until 90 s; then four times
+  double fastest = 5e-3;                            // m/s, of closing under pressure
+  double contact = 2000, room = 15;                 // W/(m^2 K), heat transfer from platens and to the room
+  double bond_strength = .17e6;  // Pa, of a hot bond fully cured: half of the internal bond of EN 300; judgement
+  transfer::Resin resin_face = transfer::resins()[0], resin_core = transfer::resins()[1];
+  RateEffect rate;
+  Softening softening;
+  transfer::Constants constants;
+};
+
+// The mat's dry mass and thicknesses.
+MatSize size_of(const PressedMat& mat);
+
+// One cell at one time.
+struct CellReading {
+  double depth;                 // m, of its middle below the top face
+  double T, M, gas;             // C, kg/kg, Pa above the room's
+  double density;               // kg/m^3, oven-dry mass
+  double cure_face, cure_core;  // degree of cure that each resin has, or would have, there
+  bool face;                    // it carries the face resin
+  double cure() const { return face ? cure_face : cure_core; }
+};
+
+struct Instant {
+  double time = 0;                           // s
+  std::string phase;                         // "close", "hold", ...
+  double thickness = 0;                      // m, of the mat
+  double gap = 0;                            // m, between the platens; in the open press the mat's thickness
+  double pressure = 0, stress = 0;           // Pa, of the platens and of the wood alone; not a number without mechanics
+  double platen_top = 0, platen_bottom = 0;  // C
+  double gas_mean = 0;                       // Pa
+  double heat = 0, water_out = 0;            // J/m^2 and kg/m^2 since the start
+  std::string mark;                          // "closed", "held", "opened": ends of these phases
+  std::vector<CellReading> cells;            // bottom to top
+};
+
+struct Cycle {
+  Settings settings;
+  MatSize mat;
+  std::vector<Instant> record;        // after every step
+  double log_start = 0;               // s, first contact as a log counts time
+  double thickness_unloaded = 0;      // m, at the end, elastic strains gone
+  transfer::Amounts worst_balance{};  // largest relative error of a step, and of all steps
+  std::vector<std::string> warnings;
+};
+
+// Presses the mat. Throws InputError for a schedule or settings that cannot be followed, RunError where the solution
+// fails.
+Cycle press_hot(const Settings& settings, const PressedMat& mat);
+
+}  // namespace strandlab::hotpress
