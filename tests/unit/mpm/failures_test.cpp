@@ -51,20 +51,20 @@ void expect_says(const std::string& message, const std::vector<std::string>& par
 
 TEST(Failure, InvertedParticle) {
   auto body = strand_of(0, kLength);
-  body.F[40](1, 1) = -0.5;  // turned inside out
+  body.points.F[40](1, 1) = -0.5;  // turned inside out
   expect_says(failure_of(body),
               {"step 0", "ms", "particle 40 of surface strand in row 1", " mm", "inverted (det F = -"});
 }
 
 TEST(Failure, StressThatIsNotANumber) {
   auto body = strand_of(0, kLength);
-  body.stress[40][0] = std::numeric_limits<double>::quiet_NaN();
+  body.points.stress[40][0] = std::numeric_limits<double>::quiet_NaN();
   expect_says(failure_of(body), {"step 0", "surface strand in row 1", " mm", "stress is not finite"});
 }
 
 TEST(Failure, TimeStepThatFallsToNothing) {
   auto body = strand_of(0, kLength);
-  for (auto& v : body.v) v[0] = 1;  // mm/s
+  for (auto& v : body.points.v) v[0] = 1;  // mm/s
   auto engine = engine_of({body});
   engine.scale_velocities(1e12);
   expect_says(test::message_of<RunError>([&] { engine.step(); }),
@@ -73,14 +73,14 @@ TEST(Failure, TimeStepThatFallsToNothing) {
 
 TEST(Failure, ParticleOutsideTheGrid) {
   auto body = strand_of(0, kLength);
-  body.x[40][0] = 3 * kLength;
+  body.points.x[40][0] = 3 * kLength;
   expect_says(test::message_of<RunError>([&] { engine_of({body}); }),
               {"step 0", "particle 40 of surface strand in row 1", "left the grid"});
 }
 
 TEST(Failure, ParticleStretchedOutOfProportion) {
   auto body = strand_of(0, kLength);
-  body.F[0](0, 0) = 50;  // in the strand's bottom left corner: a point of its end face lies 25 spacings outside
+  body.points.F[0](0, 0) = 50;  // in the strand's bottom left corner: a point of its end face lies 25 spacings outside
   expect_says(failure_of(body), {"step 0", "surface strand in row 1 at (", "stretched out of all proportion"});
 }
 

@@ -96,7 +96,7 @@ void expect_linear_field() {
   Body<Dim> body;
   body.name = "cloud";
   body.material = wood::in_strand_axes(wood::library()[0], 0);
-  body.spacing = Vec<Dim>::Constant(0.5);
+  body.lattice.spacing = Vec<Dim>::Constant(0.5);
   for (int p = 0; p < 203; ++p) {
     Vec<Dim> x;
     Tensor<Dim> F = Tensor<Dim>::Identity();
@@ -104,12 +104,12 @@ void expect_linear_field() {
       x[a] = 10 * unit(random);
       for (int b = 0; b < Dim; ++b) F(a, b) += 0.6 * (unit(random) - 0.5);
     }
-    body.x.push_back(x);
-    body.F.push_back(F);
+    body.points.x.push_back(x);
+    body.points.F.push_back(F);
   }
-  body.v.assign(body.x.size(), Vec<Dim>::Zero());
-  body.stress.assign(body.x.size(), Voigt::Zero());
-  body.plastic.assign(body.x.size(), 0.0);
+  body.points.v.assign(body.points.size(), Vec<Dim>::Zero());
+  body.points.stress.assign(body.points.size(), Voigt::Zero());
+  body.points.plastic.assign(body.points.size(), 0.0);
   Grid<Dim> grid;
   for (int a = 0; a < Dim; ++a) grid.cell[a] = 0.7 + 0.2 * a;
   grid.origin = Vec<Dim>::Constant(0.13);
@@ -127,9 +127,10 @@ void expect_linear_field() {
   engine.impose(dt, [&](const Vec<Dim>& x) { return Vec<Dim>(b + A * x); });
   engine.write(bodies);
   const Tensor<Dim> step = Tensor<Dim>::Identity() + dt * A + 0.5 * dt * dt * A * A;
-  for (std::size_t p = 0; p < body.x.size(); ++p) {
-    EXPECT_LT((bodies[0].x[p] - (body.x[p] + dt * (b + A * body.x[p]))).norm(), 1e-13) << "particle " << p;
-    EXPECT_LT((bodies[0].F[p] - step * body.F[p]).norm(), 1e-14) << "particle " << p;
+  for (std::size_t p = 0; p < body.points.size(); ++p) {
+    EXPECT_LT((bodies[0].points.x[p] - (body.points.x[p] + dt * (b + A * body.points.x[p]))).norm(), 1e-13)
+        << "particle " << p;
+    EXPECT_LT((bodies[0].points.F[p] - step * body.points.F[p]).norm(), 1e-14) << "particle " << p;
   }
 }
 

@@ -79,11 +79,10 @@ void expect_same(const Panel<2>& a, const Panel<2>& b) {
   EXPECT_EQ(a.time_s, b.time_s);
   EXPECT_EQ(a.top_mm, b.top_mm);
   for (std::size_t s = 0; s < a.strands.size(); ++s) {
-    EXPECT_TRUE(same_bits(a.strands[s].x, b.strands[s].x)) << "positions of strand " << s;
-    EXPECT_TRUE(same_bits(a.strands[s].v, b.strands[s].v)) << "velocities of strand " << s;
-    EXPECT_TRUE(same_bits(a.strands[s].F, b.strands[s].F)) << "deformation gradients of strand " << s;
-    EXPECT_TRUE(same_bits(a.strands[s].stress, b.strands[s].stress)) << "stresses of strand " << s;
-    EXPECT_TRUE(same_bits(a.strands[s].plastic, b.strands[s].plastic)) << "plastic strain of strand " << s;
+    for_each_field<2>([&](const auto& field) {
+      EXPECT_TRUE(same_bits(a.strands[s].points.*field.values, b.strands[s].points.*field.values))
+          << field.name << " of strand " << s;
+    });
   }
 }
 
@@ -151,10 +150,10 @@ void expect_goes_on(const Panel<2>& panel) {
   engine.write(bodies);
   stopped.write(copy);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    EXPECT_TRUE(same_bits(bodies[b].x, copy[b].x)) << bodies[b].name;
-    EXPECT_TRUE(same_bits(bodies[b].v, copy[b].v)) << bodies[b].name;
-    EXPECT_TRUE(same_bits(bodies[b].stress, copy[b].stress)) << bodies[b].name;
-    EXPECT_TRUE(same_bits(bodies[b].plastic, copy[b].plastic)) << bodies[b].name;
+    for_each_field<2>([&](const auto& field) {
+      EXPECT_TRUE(same_bits(bodies[b].points.*field.values, copy[b].points.*field.values))
+          << field.name << " of " << bodies[b].name;
+    });
   }
   EXPECT_EQ(engine.energies().friction, stopped.energies().friction);
   EXPECT_GT(engine.energies().plastic, 0);
@@ -187,7 +186,7 @@ TEST(Press, PlasticWorkIsPositive) {
   const auto& snapshots = reference().snapshots;
   for (std::size_t k = 1; k < snapshots.size(); ++k) {
     for (std::size_t s = 0; s < snapshots[k].strands.size(); ++s) {
-      const auto &now = snapshots[k].strands[s].plastic, &then = snapshots[k - 1].strands[s].plastic;
+      const auto &now = snapshots[k].strands[s].points.plastic, &then = snapshots[k - 1].strands[s].points.plastic;
       for (std::size_t p = 0; p < now.size(); ++p) ASSERT_GE(now[p], then[p]);
     }
   }
@@ -197,7 +196,7 @@ TEST(Press, PlasticWorkIsPositive) {
 TEST(Press, MassIsThatOfTheStrands) {
   const auto panel = small_mat();
   double area = 0;
-  for (const auto& s : panel.strands) area += s.points[0] * s.spacing[0] * s.points[1] * s.spacing[1];
+  for (const auto& s : panel.strands) area += s.lattice.extent(0) * s.lattice.extent(1);
   const double expected = 350e-12 * area;
   std::vector<mpm::Body<2>> bodies;
   for (const auto& s : reference().snapshots.back().strands) bodies.push_back(mpm::body_of(s));

@@ -28,7 +28,7 @@ TEST(PressedProfile, IntegralIsMassOverArea) {
   job.compactions = {0, 0.2, 0.4};
   const auto mat = panel_of(osb(job, 1), job);
   double mass = 0;  // from the mat's strands, kg/m^3 mm^2
-  for (const auto& s : mat.strands) mass += 350 * s.points[0] * s.points[1] * s.point_volume();
+  for (const auto& s : mat.strands) mass += 350 * static_cast<double>(s.size()) * s.lattice.point_volume();
   double worst = 0;
   for (const auto& panel : pressed(mat, job)) {
     for (const int bins : {16, 25}) {
