@@ -7,6 +7,7 @@ namespace strandlab {
 std::vector<std::size_t> outline(const Lattice<2>& lattice) {
   const auto [along, through] = lattice.counts;
   std::vector<std::size_t> around;
+  around.reserve(2 * static_cast<std::size_t>(along + through));
   for (int i = 0; i < along; ++i) around.push_back(lattice.corner({i, 0}));
   for (int j = 0; j < through; ++j) around.push_back(lattice.corner({along, j}));
   for (int i = along; i > 0; --i) around.push_back(lattice.corner({i, through}));
