@@ -15,18 +15,8 @@ constexpr int kAlong = 200, kThrough = 48;
 constexpr int kSteps = 4, kRepeats = 200;  // short ones, the best counts: other work on the machine does not
 
 Strand<2> block(const wood::StrandMaterial& material) {
-  Strand<2> s;
-  s.material = material;
-  s.points = {kAlong, kThrough};
-  s.spacing = Vec<2>::Constant(kCell / 2);
-  for (int j = 0; j < kThrough; ++j) {
-    for (int i = 0; i < kAlong; ++i) s.x.emplace_back((i + 0.5) * s.spacing[0], (j + 0.5) * s.spacing[1]);
-  }
-  s.v.assign(s.x.size(), Vec<2>::Zero());
-  s.F.assign(s.x.size(), Tensor<2>::Identity());
-  s.stress.assign(s.x.size(), Voigt::Zero());
-  s.plastic.assign(s.x.size(), material.crushing.start);
-  return s;
+  const Lattice<2> lattice{{kAlong, kThrough}, Vec<2>::Constant(kCell / 2)};
+  return formed_strand<2>(lattice, {}, material);
 }
 
 // ns per particle-step of the material update alone, for steps of the given strain (the main job's are about 1e-5).

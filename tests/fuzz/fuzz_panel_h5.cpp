@@ -76,18 +76,12 @@ std::string good_file(const std::filesystem::path& file) {
   checkpoint.panel.length_mm = 1;
   checkpoint.panel.initial_thickness_mm = checkpoint.panel.top_mm = 1.6;
   for (int row = 0; row < 2; ++row) {
-    Strand<2> strand;
+    wood::StrandMaterial material;
+    material.stiffness.setIdentity();
+    material.yield_surface.setIdentity();
+    auto strand = formed_strand<2>({{2, 1}, {0.5, 0.8}}, {}, material);
     strand.kind = "surface";
     strand.row = row;
-    strand.points = {2, 1};
-    strand.spacing = {0.5, 0.8};
-    strand.x.assign(2, Vec<2>(0.25, 0.4));
-    strand.v.assign(2, Vec<2>::Zero());
-    strand.F.assign(2, Tensor<2>::Identity());
-    strand.stress.assign(2, Voigt::Zero());
-    strand.plastic.assign(2, 0.0);
-    strand.material.stiffness.setIdentity();
-    strand.material.yield_surface.setIdentity();
     checkpoint.panel.strands.push_back(strand);
   }
   checkpoint.records.resize(2);
@@ -203,11 +197,11 @@ class EditedFile {
 // What the rest of the program may rely on.
 void check(const Panel<2>& panel) {
   for (const auto& strand : panel.strands) {
-    const auto size = static_cast<std::size_t>(strand.points[0]) * static_cast<std::size_t>(strand.points[1]);
+    const auto size = strand.lattice.size();
     fuzz::require(size > 0, "a strand has points");
-    for (const auto count :
-         {strand.x.size(), strand.v.size(), strand.F.size(), strand.stress.size(), strand.plastic.size()})
-      fuzz::require(count == size, "every list of a strand is as long as its lattice");
+    for_each_field<2>([&](const auto& field) {
+      fuzz::require((strand.points.*field.values).size() == size, "every list of a strand is as long as its lattice");
+    });
   }
 }
 

@@ -124,26 +124,15 @@ Panel<3> crossed_strands() {
   constexpr double kSide = 12, kThickness = 0.8, kSpacing = kThickness / 6;
   panel.length_mm = panel.depth_mm = kSide;
   panel.initial_thickness_mm = panel.top_mm = 4 * kThickness;
+  const auto points = static_cast<int>(std::lround(kSide / kSpacing));
+  const Lattice<3> lattice{{points, points, 6}, Vec<3>::Constant(kSpacing)};
   for (int row = 0; row < 4; ++row) {
-    Strand<3> s;
+    const double angle = row % 2 ? 90 : 0;
+    auto s =
+        formed_strand<3>(lattice, {{0, 0, row * kThickness}}, wood::in_strand_axes(kinds(false)[0].material, angle));
     s.kind = "surface";
     s.row = row;
-    s.angle_deg = row % 2 ? 90 : 0;
-    s.material = wood::in_strand_axes(kinds(false)[0].material, s.angle_deg);
-    const auto points = static_cast<int>(std::lround(kSide / kSpacing));
-    s.points = {points, points, 6};
-    s.spacing = {kSpacing, kSpacing, kSpacing};
-    for (int k = 0; k < s.points[2]; ++k) {
-      for (int j = 0; j < s.points[1]; ++j) {
-        for (int i = 0; i < s.points[0]; ++i) {
-          s.x.emplace_back((i + 0.5) * kSpacing, (j + 0.5) * kSpacing, row * kThickness + (k + 0.5) * kSpacing);
-        }
-      }
-    }
-    s.v.assign(s.x.size(), Vec<3>::Zero());
-    s.F.assign(s.x.size(), Tensor<3>::Identity());
-    s.stress.assign(s.x.size(), Voigt::Zero());
-    s.plastic.assign(s.x.size(), 0.0);
+    s.angle_deg = angle;
     panel.strands.push_back(std::move(s));
   }
   return panel;

@@ -40,12 +40,12 @@ double cross(const Vec<2>& a, const Vec<2>& b) {
 }
 
 Face make_face(const Strand<2>& strand, Side side) {
-  const auto lattice = corners(strand);
-  const int n = strand.points[0] + 1;
-  const auto begin = lattice.begin() + (side == Side::kTop ? static_cast<std::ptrdiff_t>(n) * strand.points[1] : 0);
+  const auto position = corners(strand);
   Face face;
   face.sense = side == Side::kTop ? 1 : -1;
-  face.corner.assign(begin, begin + n);
+  for (const auto c : strand.lattice.face_corners(side == Side::kTop ? kTop<2> : kBottom<2>)) {
+    face.corner.push_back(position[c]);
+  }
   face.normal.assign(face.corner.size(), Vec<2>::Zero());
   face.arc.assign(face.corner.size(), 0.0);
   for (int i = 0; i < face.segments(); ++i) {
@@ -219,7 +219,7 @@ Faces make_faces(const Panel<2>& panel) {
 
 // How far two strands in contact may overlap.
 double overlap_in_contact(const Strand<2>& a, const Strand<2>& b) {
-  return 0.5 * std::min(formed_thickness(a), formed_thickness(b));
+  return 0.5 * std::min(a.lattice.thickness(), b.lattice.thickness());
 }
 
 void check(const CuringOptions& options) {
@@ -255,11 +255,11 @@ std::vector<GluePoint<2>> cure(const Panel<2>& panel, const CuringOptions& optio
     for (const auto& [face, lowest, b] : over[a]) {
       const auto& upper = panel.strands[b];
       const Pair pair{faces.tops[a], *face, lowest, options.max_gap_mm, a, b, over[a], under[b]};
-      const double spacing = options.point_spacing_mm > 0 ? options.point_spacing_mm : lower.spacing[0];
+      const double spacing = options.point_spacing_mm > 0 ? options.point_spacing_mm : lower.lattice.spacing[0];
       for (const auto& [first, last] : contact_stretches(pair)) {
-        const double on_b = std::abs(*glued(pair, last) - *glued(pair, first)) * upper.spacing[0];
-        const double length = 0.5 * ((last - first) * lower.spacing[0] + on_b);  // as formed
-        if (length < 1e-3 * spacing) continue;                                   // a touch, not a line
+        const double on_b = std::abs(*glued(pair, last) - *glued(pair, first)) * upper.lattice.spacing[0];
+        const double length = 0.5 * ((last - first) * lower.lattice.spacing[0] + on_b);  // as formed
+        if (length < 1e-3 * spacing) continue;                                           // a touch, not a line
         append_points(pair, {a, b, std::max(1, static_cast<int>(std::lround(length / spacing))), first, last}, points);
       }
     }

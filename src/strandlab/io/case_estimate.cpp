@@ -55,8 +55,8 @@ double elements(const Case& c, const Panel<2>& panel) {
   const double thinnest = thinnest_strand(panel);
   double count = 0;
   for (const auto& strand : panel.strands) {
-    const double length = strand.points[0] * strand.spacing[0];
-    const int through = mat::through(formed_thickness(strand), thinnest, c.test.elements_through_strand);
+    const double length = strand.lattice.extent(0);
+    const int through = mat::through(strand.lattice.thickness(), thinnest, c.test.elements_through_strand);
     count += through * length / (thinnest / c.test.elements_through_strand * c.grid.cell_aspect);
   }
   return count;

@@ -116,8 +116,9 @@ void visit_frame(AnyPanel& panel, const Visit& visit) {
 // number).
 template <class AnyStrand, class Visit>
 void visit_strand(AnyStrand& strand, const Visit& visit) {
-  auto& [kind, row, angle, material, stiffness_factor, points, spacing, x, v, F, stress, plastic] = strand;
-  static_cast<void>(std::tie(kind, row, points, x, v, F, stress, plastic));  // in datasets of their own
+  auto& [kind, row, angle, material, stiffness_factor, lattice, points] = strand;
+  auto& [counts, spacing] = lattice;
+  static_cast<void>(std::tie(kind, row, counts, points));  // in datasets of their own
   auto& [density, stiffness, surface, yield, hardening_K, hardening_n, crushing] = material;
   auto& [limit, start, h1, h2, exponent] = crushing;
   const auto dim = static_cast<hsize_t>(spacing.size());
@@ -139,20 +140,6 @@ void visit_strand(AnyStrand& strand, const Visit& visit) {
   visit("crushing_m", Label{"1", "m"}, Shape{}, &exponent);
 }
 
-// Numbers of the material points, one dataset each over all strands, points in the order of the strands.
-template <class AnyStrand, class Visit>
-void visit_points(AnyStrand& strand, const Visit& visit) {
-  constexpr auto dim = static_cast<hsize_t>(std::remove_cvref_t<decltype(strand.spacing)>::RowsAtCompileTime);
-  visit("position_mm", Label{"mm", "x, [across,] through the thickness"}, Shape{dim}, strand.x);
-  visit("velocity_mm_s", Label{"mm/s", "velocity"}, Shape{dim}, strand.v);
-  visit("deformation_gradient", Label{"1", "since formation, column by column"}, Shape{dim, dim}, strand.F);
-  visit("kirchhoff_stress_MPa", Label{"MPa", "strand axes, Voigt 11 22 33 23 13 12, tension positive"}, Shape{6},
-        strand.stress);
-  visit("plastic_strain",
-        Label{"1", "accumulated plastic strain alpha; collapsed part of the volume x where the strand crushes"},
-        Shape{}, strand.plastic);
-}
-
 hsize_t product(const Shape& shape) {
   return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
 }
@@ -160,6 +147,12 @@ hsize_t product(const Shape& shape) {
 Shape with_count(hsize_t count, Shape shape) {
   shape.insert(shape.begin(), count);
   return shape;
+}
+
+template <class Field>
+Shape shape_of(const Field& field) {
+  const auto shape = field.shape();
+  return {shape.begin(), shape.end()};
 }
 
 // A point's numbers, whatever Eigen calls them.
@@ -199,16 +192,9 @@ void read_scalar(const Reader& in, const std::string& path, Number& value) {
 
 template <int Dim>
 std::string describe_lattice(const Strand<Dim>& strand) {
-  std::string text = fmt::format("{}", strand.points[0]);
-  for (int d = 1; d < Dim; ++d) text += fmt::format(" x {}", strand.points[d]);
+  std::string text = fmt::format("{}", strand.lattice.counts[0]);
+  for (int d = 1; d < Dim; ++d) text += fmt::format(" x {}", strand.lattice.counts[d]);
   return text;
-}
-
-template <int Dim>
-std::size_t lattice_size(const Strand<Dim>& strand) {
-  std::size_t n = 1;
-  for (const int extent : strand.points) n *= static_cast<std::size_t>(extent);
-  return n;
 }
 
 template <int Dim>
@@ -218,7 +204,7 @@ void write_strand_lists(Writer& out, const Panel<Dim>& panel) {
   for (const auto& strand : panel.strands) {
     kinds.push_back(strand.kind);
     rows.push_back(strand.row);
-    lattice.insert(lattice.end(), strand.points.begin(), strand.points.end());
+    lattice.insert(lattice.end(), strand.lattice.counts.begin(), strand.lattice.counts.end());
   }
   const hsize_t count = panel.strands.size();
   out.write("/panel/strands/kind", kinds, {"", "name of the strand kind"});
@@ -243,24 +229,24 @@ void write_strand_numbers(Writer& out, const Panel<Dim>& panel) {
   });
 }
 
+// Numbers of the material points, one dataset over all strands for each field that is kept, points in the order of the
+// strands.
 template <int Dim>
 void write_points(Writer& out, const Panel<Dim>& panel) {
-  const Strand<Dim> pattern{};
   hsize_t total = 0;
-  for (const auto& strand : panel.strands) total += lattice_size(strand);
-  std::size_t index = 0;
-  visit_points(pattern, [&](const char* name, const Label& label, const Shape& shape, const auto&) {
+  for (const auto& strand : panel.strands) total += strand.lattice.size();
+  for_each_field<Dim>([&](const auto& field) {
+    if (!field.kept) return;
+    const Shape shape = shape_of(field);
     std::vector<double> values;
     values.reserve(total * product(shape));
     for (const auto& strand : panel.strands) {
-      std::size_t i = 0;
-      visit_points(strand, [&](const char*, const Label&, const Shape&, const auto& list) {
-        if (i++ != index) return;
-        for (const auto& value : list) values.insert(values.end(), numbers(value), numbers(value) + product(shape));
-      });
+      for (const auto& value : strand.points.*field.values) {
+        values.insert(values.end(), numbers(value), numbers(value) + product(shape));
+      }
     }
-    out.write(std::string("/panel/points/") + name, with_count(total, shape), values, label);
-    ++index;
+    out.write(std::string("/panel/points/") + field.name, with_count(total, shape), values,
+              {field.unit, field.description});
   });
 }
 
@@ -290,7 +276,7 @@ void read_strand_lists(const Reader& in, Panel<Dim>& panel) {
       if (extent < 1 || extent > std::numeric_limits<int>::max()) {
         in.fail(fmt::format("/panel/strands/points: strand {} has {} points along axis {}", s, extent, d));
       }
-      strand.points[d] = static_cast<int>(extent);
+      strand.lattice.counts[d] = static_cast<int>(extent);
     }
   }
 }
@@ -322,7 +308,7 @@ hsize_t checked_total(const Reader& in, const Panel<Dim>& panel) {
   for (std::size_t s = 0; s < panel.strands.size(); ++s) {
     const auto& strand = panel.strands[s];
     hsize_t size = 1;
-    for (const int extent : strand.points) size = std::min(size * static_cast<hsize_t>(extent), total + 1);
+    for (const int extent : strand.lattice.counts) size = std::min(size * static_cast<hsize_t>(extent), total + 1);
     if (size > total - sum) {
       in.fail(
           fmt::format("strand {} of {} points goes beyond the {} points stored", s, describe_lattice(strand), total));
@@ -336,23 +322,18 @@ hsize_t checked_total(const Reader& in, const Panel<Dim>& panel) {
 template <int Dim>
 void read_points(const Reader& in, Panel<Dim>& panel) {
   const hsize_t total = checked_total(in, panel);
-  const Strand<Dim> pattern{};
-  std::size_t index = 0;
-  visit_points(pattern, [&](const char* name, const Label&, const Shape& shape, const auto&) {
-    const auto values = in.doubles(std::string("/panel/points/") + name, with_count(total, shape));
+  for_each_field<Dim>([&](const auto& field) {
+    for (auto& strand : panel.strands) set_zero(strand.points.*field.values, strand.lattice.size());
+    if (!field.kept) return;
+    const Shape shape = shape_of(field);
+    const auto values = in.doubles(std::string("/panel/points/") + field.name, with_count(total, shape));
     const double* next = values.data();
     for (auto& strand : panel.strands) {
-      std::size_t i = 0;
-      visit_points(strand, [&](const char*, const Label&, const Shape&, auto& list) {
-        if (i++ != index) return;
-        list.resize(lattice_size(strand));
-        for (auto& value : list) {
-          std::copy(next, next + product(shape), numbers(value));
-          next += product(shape);
-        }
-      });
+      for (auto& value : strand.points.*field.values) {
+        std::copy(next, next + product(shape), numbers(value));
+        next += product(shape);
+      }
     }
-    ++index;
   });
 }
 

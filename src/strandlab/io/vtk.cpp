@@ -61,57 +61,18 @@ std::string array(const std::string& name, const std::vector<Value>& values,
   return fmt::format("{} format=\"binary\">{}</DataArray>\n", head, encoded(values));
 }
 
-std::vector<Vec<2>> corner_lattice(const Strand<2>& strand) {
-  return corners(strand);
-}
-
-// As strandlab::corners() for a section: each corner is the mean of those that the adjacent particle domains put there.
-std::vector<Vec<3>> corner_lattice(const Strand<3>& strand) {
-  const auto [nx, ny, nz] = strand.points;
-  std::vector<Vec<3>> sum(static_cast<std::size_t>(nx + 1) * (ny + 1) * (nz + 1), Vec<3>::Zero());
-  std::vector<int> count(sum.size(), 0);
-  for (std::size_t p = 0; p < strand.size(); ++p) {
-    const auto n = static_cast<int>(p);
-    const int i = n % nx, j = n / nx % ny, k = n / nx / ny;
-    for (int corner = 0; corner < 8; ++corner) {
-      const int di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2;
-      const Vec<3> half = (Vec<3>(di, dj, dk).array() - 0.5).matrix().cwiseProduct(strand.spacing);
-      const auto c =
-          static_cast<std::size_t>(i + di) + static_cast<std::size_t>(nx + 1) * ((j + dj) + (ny + 1) * (k + dk));
-      sum[c] += strand.x[p] + strand.F[p] * half;
-      ++count[c];
-    }
-  }
-  for (std::size_t c = 0; c < sum.size(); ++c) sum[c] /= count[c];
-  return sum;
-}
-
-// Corners of cell `point` in its strand's corner lattice, in VTK's order (around the bottom, then around the top).
-std::vector<std::int64_t> cell_corners(const std::array<int, 2>& points, std::int64_t point) {
-  const std::int64_t nx = points[0], c = point / nx * (nx + 1) + point % nx;
-  return {c, c + 1, c + nx + 2, c + nx + 1};
-}
-
-std::vector<std::int64_t> cell_corners(const std::array<int, 3>& points, std::int64_t point) {
-  const std::int64_t nx = points[0], ny = points[1], layer = (nx + 1) * (ny + 1);
-  const std::int64_t c = point % nx + (nx + 1) * (point / nx % ny) + layer * (point / nx / ny);
-  return {c,         c + 1,         c + nx + 2,         c + nx + 1,  //
-          c + layer, c + 1 + layer, c + nx + 2 + layer, c + nx + 1 + layer};
-}
-
 template <int Dim>
 std::string mesh(const Panel<Dim>& panel) {
   std::vector<float> points;
   std::vector<std::int64_t> connectivity, offsets;
   for (const auto& strand : panel.strands) {
     const auto first = static_cast<std::int64_t>(points.size() / 3);
-    for (const auto& corner : corner_lattice(strand)) {
+    for (const auto& corner : corners(strand)) {
       for (int d = 0; d < 3; ++d) points.push_back(d < Dim ? static_cast<float>(corner[d]) : 0.0F);
     }
     for (std::size_t p = 0; p < strand.size(); ++p) {
-      for (const auto corner : cell_corners(strand.points, static_cast<std::int64_t>(p))) {
-        connectivity.push_back(first + corner);
-      }
+      for (const auto corner : strand.lattice.cell(p))
+        connectivity.push_back(first + static_cast<std::int64_t>(corner));
       offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
     }
   }
@@ -143,24 +104,28 @@ auto single(const Function& number) {
 template <int Dim>
 std::string cell_data(const Panel<Dim>& panel) {
   const auto stress = [](std::size_t, const Strand<Dim>& strand, std::size_t p, std::vector<float>& out) {
-    const Tensor<3> sigma = cauchy_stress<Dim>(strand.F[p], strand.stress[p]);
+    const Tensor<3> sigma = cauchy_stress<Dim>(strand.points.F[p], strand.points.stress[p]);
     for (const auto& [i, j] : {std::pair{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}) {
       out.push_back(static_cast<float>(sigma(i, j)));
     }
   };
   const auto velocity = [](std::size_t, const Strand<Dim>& strand, std::size_t p, std::vector<float>& out) {
-    for (int d = 0; d < 3; ++d) out.push_back(d < Dim ? static_cast<float>(strand.v[p][d] * 1e-3) : 0.0F);
+    for (int d = 0; d < 3; ++d) out.push_back(d < Dim ? static_cast<float>(strand.points.v[p][d] * 1e-3) : 0.0F);
   };
   const auto density = single<float>([](auto, const auto& strand, auto p) { return density_kg_m3(strand, p); });
-  const auto angle = single<float>([](auto, const auto& strand, auto p) { return grain_angle_deg<Dim>(strand.F[p]); });
-  const auto plastic = single<float>([](auto, const auto& strand, auto p) { return strand.plastic[p]; });
+  const auto angle =
+      single<float>([](auto, const auto& strand, auto p) { return grain_angle_deg<Dim>(strand.points.F[p]); });
   const auto in_plane = single<float>([](auto, const auto& strand, auto) { return strand.angle_deg; });
   const auto id = single<std::int32_t>([](auto s, const auto&, auto) { return s; });
   const auto row = single<std::int32_t>([](auto, const auto& strand, auto) { return strand.row; });
+  std::string shown;
+  for_each_shown_field<Dim>([&](const auto& field) {
+    const auto value = [&](auto, const auto& strand, auto p) { return (strand.points.*field.values)[p]; };
+    shown += array(field.name, per_point<float>(panel, single<float>(value)));
+  });
   return "<CellData Scalars=\"density_kg_m3\">\n" + array("density_kg_m3", per_point<float>(panel, density)) +
          array("grain_angle_deg", per_point<float>(panel, angle)) +
-         array("stress_MPa", per_point<float>(panel, stress), {"XX", "YY", "ZZ", "XY", "YZ", "XZ"}) +
-         array("plastic_strain", per_point<float>(panel, plastic)) +
+         array("stress_MPa", per_point<float>(panel, stress), {"XX", "YY", "ZZ", "XY", "YZ", "XZ"}) + shown +
          array("velocity_m_s", per_point<float>(panel, velocity), {"x", "y", "z"}) +
          array("strand_id", per_point<std::int32_t>(panel, id)) + array("row", per_point<std::int32_t>(panel, row)) +
          array("angle_deg", per_point<float>(panel, in_plane)) + "</CellData>\n";

@@ -59,7 +59,7 @@ struct Engine<Dim>::Impl {
   EngineState state;
   double first_time_step = 0;
   std::array<double, 3> furthest{};  // cells that a particle moved at most in the last step, per axis
-  std::array<double, 3> drift{};  // cells that points may have moved since the windows were laid, per axis
+  std::array<double, 3> drift{};     // cells that points may have moved since the windows were laid, per axis
   bool windows_valid = false;
   double force[2] = {0, 0};  // N, of the bottom and top platens
   Timing timing;             // in ticks
@@ -76,7 +76,7 @@ struct Engine<Dim>::Impl {
     std::vector<ColouredTile> tiles;
     for (std::size_t b = 0; b < input.size(); ++b) {
       bodies.push_back(store_particles(input[b], static_cast<int>(b), tiles));
-      particle_count += input[b].x.size();
+      particle_count += input[b].points.size();
     }
     plan = sort_by_colour(tiles);
     tile_results.resize(tiles.size());
@@ -428,11 +428,11 @@ std::size_t Engine<Dim>::bytes() const {
 }
 template <int Dim>
 void Engine<Dim>::write(std::vector<Body<Dim>>& bodies) const {
-  for (std::size_t b = 0; b < bodies.size(); ++b) copy_out(impl_->bodies[b], bodies[b]);
+  for (std::size_t b = 0; b < bodies.size(); ++b) copy_out(impl_->bodies[b], bodies[b].points);
 }
 template <int Dim>
 void Engine<Dim>::write(Panel<Dim>& panel) const {
-  for (std::size_t b = 0; b < panel.strands.size(); ++b) copy_out(impl_->bodies[b], panel.strands[b]);
+  for (std::size_t b = 0; b < panel.strands.size(); ++b) copy_out(impl_->bodies[b], panel.strands[b].points);
   panel.time_s = impl_->state.time_s;
   if (impl_->has_platens) {
     panel.bottom_mm = impl_->state.bottom.position;

@@ -25,17 +25,13 @@ struct Face {
   Vec<Dim> traction = Vec<Dim>::Zero();  // MPa, applied to the face (dead load on the area at formation)
 };
 
-// A deformable body: particles plus surface points. Arrays as in Strand<Dim>.
+// A deformable body: particles plus surface points.
 template <int Dim>
 struct Body {
   std::string name;
   wood::StrandMaterial material;
-  std::array<int, Dim> points{};  // lattice of the particles, along fastest; product 0: no lattice, any order
-  Vec<Dim> spacing;               // mm, a particle's domain at formation
-  std::vector<Vec<Dim>> x, v;     // mm, mm/s
-  std::vector<Tensor<Dim>> F;
-  std::vector<Voigt> stress;    // MPa, Kirchhoff, strand axes
-  std::vector<double> plastic;  // history of yielding, as in Strand
+  Lattice<Dim> lattice;  // of the particles; its spacing is a particle's domain at formation. No counts: any order
+  Points<Dim> points;    // the particles' state
   std::vector<Face<Dim>> faces;
 };
 

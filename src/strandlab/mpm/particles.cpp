@@ -10,9 +10,10 @@ namespace {
 template <int Dim>
 void fill(const Body<Dim>& input, Particles<Dim>& body) {
   using C = Component<Dim>;
+  const auto& points = input.points;
   const int count = C::count(body.components);
   body.data.resize(static_cast<std::size_t>(body.blocks) * count * kBlock);
-  body.where.resize(input.x.size());
+  body.where.resize(points.size());
   for (int b = 0; b < body.blocks; ++b) {
     for (int l = 0; l < kBlock; ++l) {
       int p = body.particle[b * kBlock + l];
@@ -23,16 +24,16 @@ void fill(const Body<Dim>& input, Particles<Dim>& body) {
         body.where[p] = static_cast<int>(at);
       double* d = body.data.data() + at;
       for (int a = 0; a < Dim; ++a) {
-        d[(C::x + a) * kBlock] = input.x[p][a];
-        d[(C::v + a) * kBlock] = input.v[p][a];
-        for (int k = 0; k < Dim; ++k) d[(C::F + a * Dim + k) * kBlock] = input.F[p](a, k);
+        d[(C::x + a) * kBlock] = points.x[p][a];
+        d[(C::v + a) * kBlock] = points.v[p][a];
+        for (int k = 0; k < Dim; ++k) d[(C::F + a * Dim + k) * kBlock] = points.F[p](a, k);
       }
-      for (int k = 0; k < body.components; ++k) d[(C::stress + k) * kBlock] = input.stress[p][wood::kModeToVoigt[k]];
-      d[C::plastic(body.components) * kBlock] = input.plastic[p];
+      for (int k = 0; k < body.components; ++k) d[(C::stress + k) * kBlock] = points.stress[p][wood::kModeToVoigt[k]];
+      d[C::plastic(body.components) * kBlock] = points.plastic[p];
       d[C::radius(body.components) * kBlock] =
           1 + wood::ScalarOps::hardening_slope(body.material.hardening_K / body.material.Y_R, body.material.hardening_n,
-                                               input.plastic[p]) *
-                  input.plastic[p] / body.material.hardening_n;
+                                               points.plastic[p]) *
+                  points.plastic[p] / body.material.hardening_n;
     }
   }
 }
@@ -81,11 +82,11 @@ template <int Dim>
 Particles<Dim> store_particles(const Body<Dim>& input, int number, std::vector<ColouredTile>& tiles) {
   if (input.faces.size() > kMaxFaces)
     throw InputError(fmt::format("body {}: more than {} faces", input.name, kMaxFaces));
-  if (input.x.empty()) throw InputError(fmt::format("body {}: no particles", input.name));
+  if (input.points.size() == 0) throw InputError(fmt::format("body {}: no particles", input.name));
   Particles<Dim> body;
   body.name = input.name;
   body.material = input.material;
-  body.spacing = input.spacing;
+  body.spacing = input.lattice.spacing;
   body.components = Dim == 3 || wood::needs_six(input.material) ? 6 : 4;
   if (body.components == 4)
     body.modes4 = wood::yield_modes<4>(input.material);
@@ -93,7 +94,7 @@ Particles<Dim> store_particles(const Body<Dim>& input, int number, std::vector<C
     body.modes6 = wood::yield_modes<6>(input.material);
 
   const auto order = split_into_tiles(input);
-  std::vector<int> tile_of(input.x.size());
+  std::vector<int> tile_of(input.points.size());
   const std::size_t first_tile = tiles.size();
   for (std::size_t t = 0; t < order.size(); ++t) {
     Tile tile{};
@@ -125,16 +126,16 @@ BodyView<Dim> view_of_wood(Particles<Dim>& body) {
   return v;
 }
 
-template <int Dim, class Target>
-void copy_out(const Particles<Dim>& body, Target& target) {
+template <int Dim>
+void copy_out(const Particles<Dim>& body, Points<Dim>& points) {
   using C = Component<Dim>;
   body.each([&](int p, const Vec<Dim>& x, const double* d) {
-    target.x[p] = x;
-    for (int a = 0; a < Dim; ++a) target.v[p][a] = d[(C::v + a) * kBlock];
-    target.F[p] = body.deformation(d);
-    target.stress[p].setZero();
-    for (int k = 0; k < body.components; ++k) target.stress[p][wood::kModeToVoigt[k]] = d[(C::stress + k) * kBlock];
-    target.plastic[p] = d[C::plastic(body.components) * kBlock];
+    points.x[p] = x;
+    for (int a = 0; a < Dim; ++a) points.v[p][a] = d[(C::v + a) * kBlock];
+    points.F[p] = body.deformation(d);
+    points.stress[p].setZero();
+    for (int k = 0; k < body.components; ++k) points.stress[p][wood::kModeToVoigt[k]] = d[(C::stress + k) * kBlock];
+    points.plastic[p] = d[C::plastic(body.components) * kBlock];
   });
 }
 
@@ -243,8 +244,7 @@ std::size_t bytes(const std::vector<Particles<Dim>>& bodies) {
 
 template Particles<2> store_particles(const Body<2>&, int, std::vector<ColouredTile>&);
 template BodyView<2> view_of_wood(Particles<2>&);
-template void copy_out(const Particles<2>&, Body<2>&);
-template void copy_out(const Particles<2>&, Strand<2>&);
+template void copy_out(const Particles<2>&, Points<2>&);
 template void scale_velocities(std::vector<Particles<2>>&, double);
 template double kinetic_energy(const std::vector<Particles<2>>&);
 template double elastic_energy(const std::vector<Particles<2>>&);
@@ -254,8 +254,7 @@ template double mass(const std::vector<Particles<2>>&);
 template std::size_t bytes(const std::vector<Particles<2>>&);
 template Particles<3> store_particles(const Body<3>&, int, std::vector<ColouredTile>&);
 template BodyView<3> view_of_wood(Particles<3>&);
-template void copy_out(const Particles<3>&, Body<3>&);
-template void copy_out(const Particles<3>&, Strand<3>&);
+template void copy_out(const Particles<3>&, Points<3>&);
 template void scale_velocities(std::vector<Particles<3>>&, double);
 template double kinetic_energy(const std::vector<Particles<3>>&);
 template double elastic_energy(const std::vector<Particles<3>>&);

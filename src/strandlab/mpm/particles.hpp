@@ -86,9 +86,9 @@ Particles<Dim> store_particles(const Body<Dim>& body, int number, std::vector<Co
 template <int Dim>
 BodyView<Dim> view_of_wood(Particles<Dim>& body);
 
-// Copies the particles' state out. Target: Body<Dim> or Strand<Dim>.
-template <int Dim, class Target>
-void copy_out(const Particles<Dim>& body, Target& target);
+// Copies the particles' state out: the fields that the engine moves. Others stay as they are.
+template <int Dim>
+void copy_out(const Particles<Dim>& body, Points<Dim>& points);
 
 template <int Dim>
 void scale_velocities(std::vector<Particles<Dim>>& bodies, double factor);

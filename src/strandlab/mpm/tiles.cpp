@@ -15,27 +15,21 @@ void add_run(std::vector<std::vector<int>>& blocks, const std::vector<int>& run)
   }
 }
 
-template <int Dim>
-bool has_lattice(const Body<Dim>& body) {
-  std::size_t lattice = 1;
-  for (int n : body.points) lattice *= static_cast<std::size_t>(n);
-  return lattice == body.x.size();
-}
-
 }  // namespace
 
 template <int Dim>
 std::vector<TileParticles> split_into_tiles(const Body<Dim>& body) {
   std::vector<TileParticles> tiles;
-  if (!has_lattice(body)) {
-    std::vector<int> all(body.x.size());
+  const auto& lattice = body.lattice;
+  if (lattice.size() != body.points.size()) {
+    std::vector<int> all(body.points.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
     tiles.emplace_back();
     add_run(tiles.back().blocks, all);
     return tiles;
   }
   const int width = Dim == 2 ? kTileColumns : kTileColumns3;
-  const int nx = body.points[0], ny = body.points[1], nz = Dim == 3 ? body.points[Dim - 1] : 1;
+  const int nx = lattice.counts[0], ny = lattice.counts[1], nz = Dim == 3 ? lattice.counts[Dim - 1] : 1;
   const int across = Dim == 3 ? width : ny;  // in 2D a tile holds all rows
   for (int j0 = 0; j0 < ny; j0 += across) {
     for (int i0 = 0; i0 < nx; i0 += width) {
@@ -44,7 +38,11 @@ std::vector<TileParticles> split_into_tiles(const Body<Dim>& body) {
       for (int k = 0; k < nz; ++k) {
         for (int j = j0; j < std::min(ny, j0 + across); ++j) {
           std::vector<int> run;
-          for (int i = i0; i < std::min(nx, i0 + width); ++i) run.push_back(i + nx * (j + ny * k));
+          for (int i = i0; i < std::min(nx, i0 + width); ++i) {
+            typename Lattice<Dim>::Place place{i, j};
+            if (Dim == 3) place[Dim - 1] = k;
+            run.push_back(static_cast<int>(lattice.point(place)));
+          }
           add_run(tiles.back().blocks, run);
         }
       }

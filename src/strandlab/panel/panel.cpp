@@ -65,29 +65,17 @@ Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, d
     const double thickness = mat.thickness_of(row), y0 = mat.height_below(row);
     const int through = mat::through(thickness, thinnest, points_through);
     for (const auto& piece : mat.layers[row].strands) {
-      Strand<2> s;
-      s.kind = kind.name;
-      s.row = static_cast<int>(row);
-      s.angle_deg = piece.angle_deg.value_or(kind.angle_deg);
+      const double angle = piece.angle_deg.value_or(kind.angle_deg);
       auto wood = wood::softened(find_material(kind, piece, kinds, row), kind.yield_factor);
       wood.law = kind.material.law;
-      s.material = wood::in_strand_axes(wood, s.angle_deg, kind.off_axis);
-      s.stiffness_factor = kind.stiffness_factor;
       const double length = piece.x1_mm - piece.x0_mm;
       const int along = std::max(1, static_cast<int>(std::lround(length / spacing_along_mm)));
-      s.points = {along, through};
-      s.spacing = {length / along, thickness / through};
-      const std::size_t n = static_cast<std::size_t>(along) * static_cast<std::size_t>(through);
-      s.x.reserve(n);
-      for (int j = 0; j < through; ++j) {
-        for (int i = 0; i < along; ++i) {
-          s.x.emplace_back(piece.x0_mm + (i + 0.5) * s.spacing[0], y0 + (j + 0.5) * s.spacing[1]);
-        }
-      }
-      s.v.assign(n, Vec<2>::Zero());
-      s.F.assign(n, Tensor<2>::Identity());
-      s.stress.assign(n, Voigt::Zero());
-      s.plastic.assign(n, s.material.crushing.start);
+      const Lattice<2> lattice{{along, through}, {length / along, thickness / through}};
+      auto s = formed_strand<2>(lattice, {{piece.x0_mm, y0}}, wood::in_strand_axes(wood, angle, kind.off_axis));
+      s.kind = kind.name;
+      s.row = static_cast<int>(row);
+      s.angle_deg = angle;
+      s.stiffness_factor = kind.stiffness_factor;
       panel.strands.push_back(std::move(s));
     }
   }
@@ -117,27 +105,6 @@ Weight weigh(const mat::Mat& mat, const std::vector<StrandKind>& kinds) {
   }
   weight.kg_per_m2 = 1e-3 * total / mat.length_mm;
   return weight;
-}
-
-std::vector<Vec<2>> corners(const Strand<2>& strand) {
-  const int nx = strand.points[0], ny = strand.points[1];
-  const auto corner = [nx](int i, int j) { return static_cast<std::size_t>(j) * (nx + 1) + i; };
-  std::vector<Vec<2>> sum(static_cast<std::size_t>(nx + 1) * (ny + 1), Vec<2>::Zero());
-  std::vector<int> count(sum.size(), 0);
-  for (int j = 0; j < ny; ++j) {
-    for (int i = 0; i < nx; ++i) {
-      const auto p = static_cast<std::size_t>(j) * nx + i;
-      for (int cj = 0; cj < 2; ++cj) {
-        for (int ci = 0; ci < 2; ++ci) {
-          const Vec<2> half((ci - 0.5) * strand.spacing[0], (cj - 0.5) * strand.spacing[1]);
-          sum[corner(i + ci, j + cj)] += strand.x[p] + strand.F[p] * half;
-          ++count[corner(i + ci, j + cj)];
-        }
-      }
-    }
-  }
-  for (std::size_t c = 0; c < sum.size(); ++c) sum[c] /= count[c];
-  return sum;
 }
 
 }  // namespace strandlab

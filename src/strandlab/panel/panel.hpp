@@ -1,4 +1,4 @@
-// A strand as a lattice of material points, and a panel as its strands: what flows from pressing to curing, virtual
+// A strand as material points on a lattice, and a panel as its strands: what flows from pressing to curing, virtual
 // tests, profiles and pictures.
 #pragma once
 
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "strandlab/core/types.hpp"
+#include "strandlab/lattice/points.hpp"
 #include "strandlab/mat/mat.hpp"
 #include "strandlab/wood/material.hpp"
 
@@ -24,9 +25,7 @@ struct StrandKind {
   wood::OffAxis off_axis = wood::OffAxis::kExact;
 };
 
-// One strand: points[0] x points[1] (x points[2]) material points, along x [across x] through the thickness (last
-// axis). Point (i, j[, k]) has index i + points[0]*(j [+ points[1]*k]): along the strand runs fastest, rows stack
-// through the thickness. All arrays have that order and length size().
+// One strand: its wood, its lattice, and the state of the material points on it.
 template <int Dim>
 struct Strand {
   std::string kind;  // name of its StrandKind
@@ -34,15 +33,9 @@ struct Strand {
   double angle_deg = 0;
   wood::StrandMaterial material;  // elastic as tested, cold; yielding as in the press
   double stiffness_factor = 1;    // elastic stiffness in the press over that of the material
-  std::array<int, Dim> points{};
-  Vec<Dim> spacing;             // mm, of the points at formation: strand length = points[0]*spacing[0], exactly
-  std::vector<Vec<Dim>> x;      // mm, positions now
-  std::vector<Vec<Dim>> v;      // mm/s
-  std::vector<Tensor<Dim>> F;   // deformation gradient since formation
-  std::vector<Voigt> stress;    // MPa, Kirchhoff, strand axes convected with the strand (along = F a0)
-  std::vector<double> plastic;  // history of yielding: alpha, accumulated plastic strain, or x where the wood crushes
-  std::size_t size() const { return x.size(); }
-  double point_volume() const { return spacing.prod(); }  // mm^3 (2D: per mm of depth), at formation
+  Lattice<Dim> lattice;           // as formed
+  Points<Dim> points;
+  std::size_t size() const { return points.size(); }
 };
 
 // State of a panel at one compaction.
@@ -65,6 +58,19 @@ const StrandKind& find_kind(const std::vector<StrandKind>& kinds, const std::str
 const wood::Material& find_material(const StrandKind& kind, const mat::Strand& strand,
                                     const std::vector<StrandKind>& kinds, std::size_t layer);
 
+// A strand as formed, without a place in a mat or a kind: at rest, unstressed, its history of yielding that of its
+// wood.
+template <int Dim>
+Strand<Dim> formed_strand(const Lattice<Dim>& lattice, const Placement<Dim>& placement,
+                          const wood::StrandMaterial& material) {
+  Strand<Dim> strand;
+  strand.material = material;
+  strand.lattice = lattice;
+  strand.points = formed_points(lattice, placement);
+  strand.points.plastic.assign(lattice.size(), material.crushing.start);
+  return strand;
+}
+
 // The panel of a mat before pressing: every strand becomes a lattice with a spacing along it close to
 // `spacing_along_mm` that fills its length exactly. Strands of the thinnest row have `points_through` points through
 // their thickness, others as many as keep the points' height nearest to that. Throws as find_kind() and
@@ -84,21 +90,19 @@ struct Weight {
 // Exact for the mat as it lies: sums of length x thickness x density over its strands. Throws as make_panel().
 Weight weigh(const mat::Mat& mat, const std::vector<StrandKind>& kinds);
 
-// Thickness (mm, as formed) of a strand, and of the panel's thinnest one. The panel must have a strand.
-template <int Dim>
-double formed_thickness(const Strand<Dim>& strand) {
-  return strand.points[Dim - 1] * strand.spacing[Dim - 1];
-}
+// Thickness (mm, as formed) of the panel's thinnest strand. The panel must have one.
 template <int Dim>
 double thinnest_strand(const Panel<Dim>& panel) {
-  double thinnest = formed_thickness(panel.strands.front());
-  for (const auto& strand : panel.strands) thinnest = std::min(thinnest, formed_thickness(strand));
+  double thinnest = panel.strands.front().lattice.thickness();
+  for (const auto& strand : panel.strands) thinnest = std::min(thinnest, strand.lattice.thickness());
   return thinnest;
 }
 
-// A strand's outline and elements come from its corner lattice: (points[0]+1) x (points[1]+1) corners, along fastest,
-// each the mean of the corners that the adjacent particle domains (parallelograms x +- F spacing/2) put there.
-std::vector<Vec<2>> corners(const Strand<2>& strand);
+// Positions of a strand's corners, mm.
+template <int Dim>
+std::vector<Vec<Dim>> corners(const Strand<Dim>& strand) {
+  return corners(strand.lattice, strand.points);
+}
 
 // Unit grain direction of a point: F a0 / |F a0|.
 template <int Dim>

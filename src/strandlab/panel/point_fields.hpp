@@ -15,7 +15,7 @@ namespace strandlab {
 // Density now, kg/m^3: that at formation over det F (a section is in plane strain).
 template <int Dim>
 double density_kg_m3(const Strand<Dim>& strand, std::size_t point) {
-  return strand.material.density / kTonnePerMm3 / strand.F[point].determinant();
+  return strand.material.density / kTonnePerMm3 / strand.points.F[point].determinant();
 }
 
 // Angle of the strand's long axis F a0 against the panel's plane, degrees, positive when it climbs along x; -90..90.

@@ -54,10 +54,11 @@ Profile density_profile(const Panel<Dim>& panel, int bins) {
   profile.density_kg_m3.assign(static_cast<std::size_t>(bins), 0.0);
   const double height = profile.bin_height_mm();
   for (const auto& strand : panel.strands) {
-    const double mass = strand.material.density / kTonnePerMm3 * strand.point_volume();  // kg/m^3 mm^3
+    const double mass = strand.material.density / kTonnePerMm3 * strand.lattice.point_volume();  // kg/m^3 mm^3
     for (std::size_t p = 0; p < strand.size(); ++p) {
-      const auto spans = heights<Dim>(strand.F[p], strand.spacing / height);
-      add<Dim>(spans, (strand.x[p][Dim - 1] - panel.bottom_mm) / height, mass / (area * height), profile.density_kg_m3);
+      const auto spans = heights<Dim>(strand.points.F[p], strand.lattice.spacing / height);
+      add<Dim>(spans, (strand.points.x[p][Dim - 1] - panel.bottom_mm) / height, mass / (area * height),
+               profile.density_kg_m3);
     }
   }
   return profile;

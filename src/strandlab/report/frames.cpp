@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/panel/lumped.hpp"
@@ -21,24 +25,40 @@ constexpr double kTrimmed = 0.0005;  // share of the cells at each end that a fi
 
 // What the section can be coloured by, in the words of the page.
 struct Field {
-  const char *key, *label, *unit;
-  int digits;      // shown behind the point
-  bool diverging;  // its colours are symmetric about 0
-  double (*value)(const Strand<2>&, std::size_t);
+  std::string key, label, unit;
+  int digits = 0;          // shown behind the point
+  bool diverging = false;  // its colours are symmetric about 0
+  std::function<double(const Strand<2>&, std::size_t)> value;
 };
 
-constexpr std::array kFields{
-    Field{"grain_angle_deg", "Grain angle", "°", 1, true,
-          [](const Strand<2>& s, std::size_t p) { return grain_angle_deg<2>(s.F[p]); }},
-    Field{"density_kg_m3", "Density", "kg/m³", 0, false,
-          [](const Strand<2>& s, std::size_t p) { return density_kg_m3(s, p); }},
-    Field{"plastic_strain", "Plastic strain", "", 3, false,
-          [](const Strand<2>& s, std::size_t p) { return s.plastic[p]; }},
-    Field{"stress_through_MPa", "Stress through thickness", "MPa", 2, true,
-          [](const Strand<2>& s, std::size_t p) { return cauchy_stress<2>(s.F[p], s.stress[p])(1, 1); }},
-    Field{"stress_along_MPa", "Stress along panel", "MPa", 1, true,
-          [](const Strand<2>& s, std::size_t p) { return cauchy_stress<2>(s.F[p], s.stress[p])(0, 0); }},
-};
+// "plastic_strain" is "Plastic strain", "temperature_C" of unit "C" is "Temperature".
+std::string label_of(std::string name, const std::string& unit) {
+  if (name.ends_with("_" + unit)) name.resize(name.size() - unit.size() - 1);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  name.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(name.front())));
+  return name;
+}
+
+// What can be read off the points, and the fields of theirs that are shown as they are.
+std::vector<Field> colourings() {
+  const auto stress = [](const Strand<2>& s, std::size_t p) {
+    return cauchy_stress<2>(s.points.F[p], s.points.stress[p]);
+  };
+  std::vector<Field> fields{{"grain_angle_deg", "Grain angle", "°", 1, true,
+                             [](const Strand<2>& s, std::size_t p) { return grain_angle_deg<2>(s.points.F[p]); }},
+                            {"density_kg_m3", "Density", "kg/m³", 0, false,
+                             [](const Strand<2>& s, std::size_t p) { return density_kg_m3(s, p); }}};
+  for_each_shown_field<2>([&](const auto& field) {
+    const std::string unit = field.unit == std::string_view("1") ? "" : field.unit;
+    fields.push_back({field.name, label_of(field.name, unit), unit, 3, false,
+                      [field](const Strand<2>& s, std::size_t p) { return (s.points.*field.values)[p]; }});
+  });
+  fields.push_back({"stress_through_MPa", "Stress through thickness", "MPa", 2, true,
+                    [=](const Strand<2>& s, std::size_t p) { return stress(s, p)(1, 1); }});
+  fields.push_back({"stress_along_MPa", "Stress along panel", "MPa", 1, true,
+                    [=](const Strand<2>& s, std::size_t p) { return stress(s, p)(0, 0); }});
+  return fields;
+}
 
 std::string base64(const std::string& bytes) {
   constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -161,7 +181,7 @@ std::string pack_glue(const Panel<2>& frame, const glue::CuringOptions& curing, 
 Json describe_strands(const Panel<2>& frame) {
   Json list = Json::array();
   for (const auto& s : frame.strands) {
-    list.push_back({{"kind", s.kind}, {"row", s.row}, {"angle_deg", s.angle_deg}, {"points", s.points}});
+    list.push_back({{"kind", s.kind}, {"row", s.row}, {"angle_deg", s.angle_deg}, {"points", s.lattice.counts}});
   }
   return list;
 }
@@ -170,7 +190,7 @@ Json describe_strands(const Panel<2>& frame) {
 
 Panel<2> frame_of(const Panel<2>& panel) {
   double length = 0;
-  for (const auto& strand : panel.strands) length += strand.points[0] * strand.spacing[0];
+  for (const auto& strand : panel.strands) length += strand.lattice.extent(0);
   return length > 0 ? lumped(panel, kThrough * length / kCells, kThrough) : panel;
 }
 
@@ -182,8 +202,9 @@ Json pack_frames(const std::vector<Panel<2>>& frames, const glue::CuringOptions&
   packed["length_mm"] = frames[0].length_mm;
   packed["initial_thickness_mm"] = frames[0].initial_thickness_mm;
   packed["strands"] = describe_strands(frames[0]);
+  const auto fields = colourings();
   std::vector<Range> ranges;
-  for (const auto& field : kFields) {
+  for (const auto& field : fields) {
     ranges.push_back(range_of(frames, field));
     packed["fields"].push_back({{"key", field.key},
                                 {"label", field.label},
@@ -199,7 +220,7 @@ Json pack_frames(const std::vector<Panel<2>>& frames, const glue::CuringOptions&
     if (describe_strands(frame) != packed["strands"]) throw InputError("the frames are not all of the same mat");
     auto now = quanta(frame, quantum, starts);
     auto cells = pack_corners(now, before, starts);
-    for (std::size_t f = 0; f < kFields.size(); ++f) append_field(cells, frame, kFields[f], ranges[f]);
+    for (std::size_t f = 0; f < fields.size(); ++f) append_field(cells, frame, fields[f], ranges[f]);
     packed["frames"].push_back({{"compaction", frame.compaction()},
                                 {"time_ms", 1e3 * frame.time_s},
                                 {"bottom_mm", frame.bottom_mm},

@@ -59,9 +59,8 @@ double area_in_box(const Triangle& t, const Point& lo, const Point& hi) {
 // A strand's elements, two triangles each: exact for every quadrilateral that does not cross itself.
 void add_triangles(const Strand<2>& strand, std::vector<Triangle>& triangles) {
   const auto c = corners(strand);
-  const auto nx = static_cast<std::size_t>(strand.points[0]);
   for (std::size_t p = 0; p < strand.size(); ++p) {
-    const std::size_t a = p / nx * (nx + 1) + p % nx, b = a + 1, d = a + nx + 1, e = d + 1;
+    const auto [a, b, e, d] = strand.lattice.cell(p);
     // The diagonal that leaves both halves anticlockwise, where the element is not convex.
     const bool along_ae = std::min(cross(c[b] - c[a], c[e] - c[a]), cross(c[e] - c[a], c[d] - c[a])) >=
                           std::min(cross(c[b] - c[a], c[d] - c[a]), cross(c[d] - c[e], c[b] - c[e]));
@@ -121,7 +120,7 @@ Mesh mesh_of(const Panel<2>& panel) {
 
 double bin_size(const Panel<2>& panel) {
   double size = 0;
-  for (const auto& strand : panel.strands) size = std::max(size, strand.spacing.maxCoeff());
+  for (const auto& strand : panel.strands) size = std::max(size, strand.lattice.spacing.maxCoeff());
   return size;
 }
 
@@ -149,8 +148,8 @@ std::map<std::pair<int, int>, double> overlaps(const Panel<2>& panel, const Mesh
 }
 
 std::vector<double> volumes(const Strand<2>& strand, std::size_t count) {
-  return std::vector<double>(count,
-                             strand.point_volume() * static_cast<double>(strand.size()) / static_cast<double>(count));
+  return std::vector<double>(
+      count, strand.lattice.point_volume() * static_cast<double>(strand.size()) / static_cast<double>(count));
 }
 
 void append(std::vector<double>& to, const std::vector<double>& values) {
@@ -186,7 +185,7 @@ Histogram histogram(std::string quantity, const std::vector<double>& values, con
 Histogram grain_angle_histogram(const Panel<2>& panel) {
   std::vector<double> angles, weights;
   for (const auto& strand : panel.strands) {
-    for (const auto& F : strand.F) angles.push_back(grain_angle_deg<2>(F));
+    for (const auto& F : strand.points.F) angles.push_back(grain_angle_deg<2>(F));
     append(weights, volumes(strand, strand.size()));
   }
   return histogram("grain_angle_deg", angles, weights, -90.5, 90.5, 181);
@@ -195,11 +194,13 @@ Histogram grain_angle_histogram(const Panel<2>& panel) {
 Histogram thickness_strain_histogram(const Panel<2>& panel) {
   std::vector<double> strains, weights;
   for (const auto& strand : panel.strands) {
-    const auto along = static_cast<std::size_t>(strand.points[0]);
-    std::vector<double> sum(along, 0.0);
-    for (std::size_t p = 0; p < strand.size(); ++p) sum[p % along] += thickness_strain<2>(strand.F[p]);
-    for (const double s : sum) strains.push_back(s / strand.points[1]);
-    append(weights, volumes(strand, along));
+    const auto& lattice = strand.lattice;
+    std::vector<double> sum(static_cast<std::size_t>(lattice.counts[0]), 0.0);
+    for (std::size_t p = 0; p < strand.size(); ++p) {
+      sum[lattice.place_of_point(p)[0]] += thickness_strain<2>(strand.points.F[p]);
+    }
+    for (const double s : sum) strains.push_back(s / lattice.counts[1]);
+    append(weights, volumes(strand, sum.size()));
   }
   return histogram("strand_thickness_strain", strains, weights, -0.91, 1.01, 96);
 }

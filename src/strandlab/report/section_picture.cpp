@@ -19,7 +19,8 @@ namespace {
 constexpr double kTrimmed = 0.02;  // share of the wood at each end that the colour range may leave out
 
 double shown_value(const Strand<2>& strand, std::size_t point, Colouring colouring) {
-  return colouring == Colouring::kGrainAngle ? grain_angle_deg<2>(strand.F[point]) : density_kg_m3(strand, point);
+  return colouring == Colouring::kGrainAngle ? grain_angle_deg<2>(strand.points.F[point])
+                                             : density_kg_m3(strand, point);
 }
 
 // 1, 2 or 5 times a power of ten, at least `value`.
@@ -144,8 +145,8 @@ Colour colour_of(double value, Colouring colouring, const ColourRange& range) {
   return colouring == Colouring::kGrainAngle ? diverging(t) : sequential(t);
 }
 
-void path_through(cairo_t* cairo, const Layout& l, const std::vector<Vec<2>>& corners,
-                  const std::vector<std::size_t>& order) {
+template <class Order>
+void path_through(cairo_t* cairo, const Layout& l, const std::vector<Vec<2>>& corners, const Order& order) {
   for (const std::size_t c : order) cairo_line_to(cairo, l.x(corners[c][0]), l.y(corners[c][1]));
   cairo_close_path(cairo);
 }
@@ -154,27 +155,17 @@ void path_through(cairo_t* cairo, const Layout& l, const std::vector<Vec<2>>& co
 void draw_cells(Picture& picture, const Layout& l, const Strand<2>& strand, Colouring colouring,
                 const ColourRange& range) {
   const auto c = corners(strand);
-  const auto nx = static_cast<std::size_t>(strand.points[0]);
   cairo_set_antialias(picture.get(), CAIRO_ANTIALIAS_NONE);
   for (std::size_t p = 0; p < strand.size(); ++p) {
-    const std::size_t a = p / nx * (nx + 1) + p % nx;
     picture.set(colour_of(shown_value(strand, p, colouring), colouring, range));
-    path_through(picture.get(), l, c, {a, a + 1, a + nx + 2, a + nx + 1});
+    path_through(picture.get(), l, c, strand.lattice.cell(p));
     cairo_fill(picture.get());
   }
   cairo_set_antialias(picture.get(), CAIRO_ANTIALIAS_DEFAULT);
 }
 
 void draw_outline(Picture& picture, const Layout& l, const Strand<2>& strand) {
-  const auto c = corners(strand);
-  const auto nx = static_cast<std::size_t>(strand.points[0]), ny = static_cast<std::size_t>(strand.points[1]);
-  const auto at = [nx](std::size_t i, std::size_t j) { return j * (nx + 1) + i; };
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < nx; ++i) order.push_back(at(i, 0));
-  for (std::size_t j = 0; j < ny; ++j) order.push_back(at(nx, j));
-  for (std::size_t i = nx; i > 0; --i) order.push_back(at(i, ny));
-  for (std::size_t j = ny; j > 0; --j) order.push_back(at(0, j));
-  path_through(picture.get(), l, c, order);
+  path_through(picture.get(), l, corners(strand), outline(strand.lattice));
   picture.set({0.1, 0.1, 0.1});
   cairo_set_line_width(picture.get(), std::max(0.6, l.width / 2200.0));
   cairo_stroke(picture.get());

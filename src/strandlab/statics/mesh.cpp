@@ -11,56 +11,22 @@
 namespace strandlab::statics {
 namespace {
 
-// Part of the material points that element k of n covers along one axis: point p counts with weight(p).
-struct Cover {
-  double from, to;  // in points
-  int first() const { return static_cast<int>(std::floor(from + 1e-9)); }
-  int last() const { return static_cast<int>(std::ceil(to - 1e-9)) - 1; }
-  double weight(int p) const { return std::max(0.0, std::min(to, p + 1.0) - std::max(from, static_cast<double>(p))); }
-};
+constexpr double kRoundOff = 1e-9;  // of lattice coordinates, in points
 
-// A strand's corner lattice seen as a continuous map from lattice coordinates (in points) to positions.
-class Lattice {
- public:
-  explicit Lattice(const Strand<2>& strand) : strand_(strand), corners_(corners(strand)) {}
+// A corner of the lattice is taken as it is.
+double snapped(double coordinate) {
+  const double nearest = std::round(coordinate);
+  return std::abs(coordinate - nearest) < kRoundOff ? nearest : coordinate;
+}
 
-  Vec<2> position(double s, double t) const {
-    const auto [i, a] = split(s, strand_.points[0]);
-    const auto [j, b] = split(t, strand_.points[1]);
-    return (1 - b) * ((1 - a) * corner(i, j) + a * corner(i + 1, j)) +
-           b * ((1 - a) * corner(i, j + 1) + a * corner(i + 1, j + 1));
-  }
-
-  // Mean grain direction of the points that an element covers.
-  Vec<2> grain_of(const Cover& along, const Cover& through) const {
-    Vec<2> sum = Vec<2>::Zero();
-    for (int j = through.first(); j <= through.last(); ++j) {
-      for (int i = along.first(); i <= along.last(); ++i) {
-        const auto p = static_cast<std::size_t>(i) + static_cast<std::size_t>(strand_.points[0]) * j;
-        sum += along.weight(i) * through.weight(j) * grain(strand_.F[p]);
-      }
-    }
-    return sum.normalized();
-  }
-
- private:
-  struct Place {
-    int cell;
-    double fraction;
-  };
-  static Place split(double s, int cells) {
-    const double nearest = std::round(s);
-    if (std::abs(s - nearest) < 1e-9) s = nearest;  // corners are taken as they are
-    const int cell = std::clamp(static_cast<int>(s), 0, cells - 1);
-    return {cell, s - cell};
-  }
-  const Vec<2>& corner(int i, int j) const {
-    return corners_[static_cast<std::size_t>(i) + static_cast<std::size_t>(strand_.points[0] + 1) * j];
-  }
-
-  const Strand<2>& strand_;
-  std::vector<Vec<2>> corners_;
-};
+// Mean grain direction of the points that an element covers.
+Vec<2> grain_between(const Strand<2>& strand, const Vec<2>& from, const Vec<2>& to) {
+  Vec<2> sum = Vec<2>::Zero();
+  for_each_covered(strand.lattice, from, to, [&](std::size_t p, double weight) {
+    if (weight > kRoundOff) sum += weight * grain(strand.points.F[p]);
+  });
+  return sum.normalized();
+}
 
 // Moves the nodes of folded elements of one strand, and of a growing neighbourhood, to the mean of their neighbours.
 class Straightener {
@@ -140,18 +106,21 @@ class Straightener {
 };
 
 void append_strand(const Strand<2>& strand, StrandMesh part, Mesh& mesh) {
-  const Lattice lattice(strand);
-  const double along = part.points_per_element, through = static_cast<double>(strand.points[1]) / part.through;
+  const auto at_corners = corners(strand);
+  const double along = part.points_per_element, through = static_cast<double>(strand.lattice.counts[1]) / part.through;
   for (int j = 0; j <= part.through; ++j) {
-    for (int i = 0; i <= part.along; ++i) mesh.nodes.push_back(lattice.position(i * along, j * through));
+    for (int i = 0; i <= part.along; ++i) {
+      mesh.nodes.push_back(
+          strand.lattice.between_corners(at_corners, Vec<2>(snapped(i * along), snapped(j * through))));
+    }
   }
-  const double formed = along * through * strand.point_volume();  // V0 of an element
+  const double formed = along * through * strand.lattice.point_volume();  // V0 of an element
   mesh.straightened += Straightener(part, formed, mesh.nodes).run();
   for (int j = 0; j < part.through; ++j) {
     for (int i = 0; i < part.along; ++i) {
       const std::array<int, 4> e{part.node(i, j), part.node(i + 1, j), part.node(i + 1, j + 1), part.node(i, j + 1)};
       const double now = area({mesh.nodes[e[0]], mesh.nodes[e[1]], mesh.nodes[e[2]], mesh.nodes[e[3]]});
-      const Vec<2> direction = lattice.grain_of({i * along, (i + 1) * along}, {j * through, (j + 1) * through});
+      const Vec<2> direction = grain_between(strand, {i * along, j * through}, {(i + 1) * along, (j + 1) * through});
       mesh.elements.push_back(e);
       mesh.stiffness.push_back(formed / now * in_section(strand.material.stiffness, direction));
     }
@@ -173,11 +142,11 @@ Mesh make_mesh(const Panel<2>& panel, const std::vector<bool>& keep, int element
     const auto& strand = panel.strands[s];
     StrandMesh part;
     part.strand = static_cast<int>(s);
-    part.along = std::max(1, static_cast<int>(std::lround(strand.points[0] * strand.spacing[0] / length)));
-    part.through = mat::through(formed_thickness(strand), thinnest, elements_through);
+    part.along = std::max(1, static_cast<int>(std::lround(strand.lattice.extent(0) / length)));
+    part.through = mat::through(strand.lattice.thickness(), thinnest, elements_through);
     part.first_node = static_cast<int>(mesh.nodes.size());
     part.first_element = static_cast<int>(mesh.elements.size());
-    part.points_per_element = static_cast<double>(strand.points[0]) / part.along;
+    part.points_per_element = static_cast<double>(strand.lattice.counts[0]) / part.along;
     append_strand(strand, part, mesh);
     mesh.mesh_of_strand[s] = static_cast<int>(mesh.strands.size());
     mesh.strands.push_back(part);

@@ -8,13 +8,13 @@
 namespace strandlab::vtest {
 namespace {
 
-// Mean x of the strand's left (i = 0) or right end face.
-double end_position(const Strand<2>& strand, bool right) {
-  const auto lattice = corners(strand);
-  const int n = strand.points[0] + 1;
+// Mean x of one of the strand's ends.
+double end_position(const Strand<2>& strand, const LatticeFace& end) {
+  const auto position = corners(strand);
+  const auto at_end = strand.lattice.face_corners(end);
   double sum = 0;
-  for (int j = 0; j <= strand.points[1]; ++j) sum += lattice[static_cast<std::size_t>(n) * j + (right ? n - 1 : 0)][0];
-  return sum / (strand.points[1] + 1);
+  for (const auto c : at_end) sum += position[c][0];
+  return sum / static_cast<double>(at_end.size());
 }
 
 int root(std::vector<int>& parent, int s) {
@@ -28,9 +28,9 @@ Connection connect(const Panel<2>& panel, const std::vector<glue::GluePoint<2>>&
   const auto n = panel.strands.size();
   Connection connection;
   for (const auto& strand : panel.strands) {
-    const double tolerance = kCreep * strand.spacing[0];
-    connection.at_left.push_back(end_position(strand, false) < tolerance);
-    connection.at_right.push_back(end_position(strand, true) > panel.length_mm - tolerance);
+    const double tolerance = kCreep * strand.lattice.spacing[0];
+    connection.at_left.push_back(end_position(strand, kLeftEnd) < tolerance);
+    connection.at_right.push_back(end_position(strand, kRightEnd) > panel.length_mm - tolerance);
   }
   std::vector<int> parent(n);
   std::iota(parent.begin(), parent.end(), 0);
@@ -67,8 +67,8 @@ bool can_connect(const Panel<2>& mat, double compaction) {
   std::vector<char> left(n, 0), right(n, 0);
   for (std::size_t s = 0; s < n; ++s) {
     const auto& strand = mat.strands[s];
-    const double length = strand.points[0] * strand.spacing[0];
-    const double x0 = strand.x.front()[0] - 0.5 * strand.spacing[0];
+    const double length = strand.lattice.extent(0);
+    const double x0 = strand.points.x.front()[0] - 0.5 * strand.lattice.spacing[0];
     const double more = length * compaction / (1 - compaction) + mat.initial_thickness_mm;
     reaches.push_back({x0 - more, x0 + length + more, strand.row, s});
     left[s] = (s == 0 || mat.strands[s - 1].row != strand.row) && reaches[s].low <= 0;

@@ -9,11 +9,10 @@ namespace {
 
 // Mean x of each column of a strand's corner lattice, from its left end to its right one.
 std::vector<double> mean_line(const Strand<2>& strand) {
-  const auto lattice = corners(strand);
-  const auto columns = static_cast<std::size_t>(strand.points[0]) + 1;
-  std::vector<double> line(columns, 0.0);
-  for (std::size_t c = 0; c < lattice.size(); ++c) line[c % columns] += lattice[c][0];
-  for (double& x : line) x /= strand.points[1] + 1;
+  const auto position = corners(strand);
+  std::vector<double> line(static_cast<std::size_t>(strand.lattice.counts[0]) + 1, 0.0);
+  for (std::size_t c = 0; c < position.size(); ++c) line[strand.lattice.place_of_corner(c)[0]] += position[c][0];
+  for (double& x : line) x /= strand.lattice.counts[1] + 1;
   return line;
 }
 
@@ -38,43 +37,38 @@ std::optional<Part> part_inside(const std::vector<double>& line, double length) 
   return part;
 }
 
-// Values at the points of a row, taken at column s + 1/2 of the lattice: linear between points and beyond the last.
-template <class T>
-T between(const std::vector<T>& values, std::size_t row_start, int columns, double s) {
-  if (columns == 1) return values[row_start];
+// Value of a row's points at column s + 1/2 of the lattice: linear between points and beyond the last.
+template <class Value>
+Value between(const std::vector<Value>& values, const Lattice<2>& lattice, int row, double s) {
+  const int columns = lattice.counts[0];
+  if (columns == 1) return values[lattice.point({0, row})];
   const int i = std::clamp(static_cast<int>(std::floor(s)), 0, columns - 2);
-  const auto at = row_start + static_cast<std::size_t>(i);
+  const auto at = lattice.point({i, row});
   const double f = s - i;
   return (1 - f) * values[at] + f * values[at + 1];
 }
 
 Strand<2> resampled(const Strand<2>& strand, const Part& part) {
-  const int columns = strand.points[0];
+  const auto& lattice = strand.lattice;
   Strand<2> cut = strand;
-  cut.points[0] = std::max(1, static_cast<int>(std::lround(part.to - part.from)));
-  const double step = (part.to - part.from) / cut.points[0];  // in columns of the strand
-  cut.spacing[0] = strand.spacing[0] * step;
-  for (auto* values : {&cut.x, &cut.v}) values->clear();
-  cut.F.clear();
-  cut.stress.clear();
-  cut.plastic.clear();
-  for (int j = 0; j < cut.points[1]; ++j) {
-    const auto row = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns);
-    for (int i = 0; i < cut.points[0]; ++i) {
-      const double s = part.from + (i + 0.5) * step - 0.5;
-      const double within = std::clamp(s, 0.0, columns - 1.0);  // nothing but positions is extrapolated
-      cut.x.push_back(between(strand.x, row, columns, s));
-      cut.v.push_back(between(strand.v, row, columns, within));
-      cut.F.push_back(between(strand.F, row, columns, within));
-      cut.stress.push_back(between(strand.stress, row, columns, within));
-      cut.plastic.push_back(between(strand.plastic, row, columns, within));
+  cut.lattice.counts[0] = std::max(1, static_cast<int>(std::lround(part.to - part.from)));
+  const double step = (part.to - part.from) / cut.lattice.counts[0];  // in columns of the strand
+  cut.lattice.spacing[0] = lattice.spacing[0] * step;
+  for_each_field<2>([&](const auto& field) {
+    auto& values = cut.points.*field.values;
+    set_zero(values, cut.lattice.size());
+    for (std::size_t p = 0; p < values.size(); ++p) {
+      const auto [i, row] = cut.lattice.place_of_point(p);
+      double s = part.from + (i + 0.5) * step - 0.5;
+      if (field.resampled == Resampled::kHeld) s = std::clamp(s, 0.0, lattice.counts[0] - 1.0);
+      values[p] = between(strand.points.*field.values, lattice, row, s);
     }
-  }
+  });
   return cut;
 }
 
 double volume(const Strand<2>& strand) {
-  return strand.point_volume() * static_cast<double>(strand.points[0]) * strand.points[1];
+  return strand.lattice.point_volume() * static_cast<double>(strand.lattice.counts[0]) * strand.lattice.counts[1];
 }
 
 }  // namespace
@@ -91,7 +85,7 @@ Specimen cut_to_window(const Panel<2>& panel) {
     const auto line = mean_line(strand);
     const auto [low, high] = std::minmax_element(line.begin(), line.end());
     const double beyond = std::max(-*low, *high - panel.length_mm);
-    if (beyond <= kCreep * strand.spacing[0]) {
+    if (beyond <= kCreep * strand.lattice.spacing[0]) {
       kept += volume(strand);
       specimen.panel.strands.push_back(strand);
       specimen.strand.push_back(static_cast<int>(s));

@@ -30,7 +30,7 @@ Panel<2> panel_of(const std::vector<Piece>& pieces) {
 }
 
 void raise(Strand<2>& strand, double dy) {
-  for (auto& x : strand.x) x[1] += dy;
+  for (auto& x : strand.points.x) x[1] += dy;
 }
 
 double glued_length(const std::vector<GluePoint<2>>& points) {
@@ -64,10 +64,10 @@ TEST(Cure, GivesTheInterpolationOnBothFaces) {
   for (const auto& p : cure(panel, {})) {
     for (const auto* side : {&p.a, &p.b}) {
       const auto& strand = panel.strands[side->strand];
-      const auto lattice = corners(strand);
-      const int row = side->side == Side::kTop ? strand.points[1] : 0;
-      const auto corner = static_cast<std::size_t>(side->segment + row * (strand.points[0] + 1));
-      const Vec<2> position = (1 - side->xi) * lattice[corner] + side->xi * lattice[corner + 1];
+      const auto at = corners(strand);
+      const int row = side->side == Side::kTop ? strand.lattice.counts[1] : 0;
+      const auto corner = strand.lattice.corner({side->segment, row});
+      const Vec<2> position = (1 - side->xi) * at[corner] + side->xi * at[corner + 1];
       EXPECT_NEAR((position - side->position).norm(), 0, 1e-12);
       EXPECT_GE(side->xi, 0);
       EXPECT_LE(side->xi, 1);
@@ -98,8 +98,8 @@ TEST(Cure, GluesFacesThatOverlap) {
 // A wedge-shaped gap 0.02 x: open from x = 5 mm on. The end lies where the gap is max_gap, not at a material point.
 TEST(Cure, EndsAGlueLineWhereTheGapOpens) {
   auto panel = panel_of({{0, 0, 20}, {1, 0, 20}});
-  for (auto& x : panel.strands[1].x) x[1] += 0.02 * x[0];
-  for (auto& F : panel.strands[1].F) F(1, 0) = 0.02;
+  for (auto& x : panel.strands[1].points.x) x[1] += 0.02 * x[0];
+  for (auto& F : panel.strands[1].points.F) F(1, 0) = 0.02;
   const auto points = cure(panel, {});
   EXPECT_NEAR(points.back().gap, 0.1, 1e-6);
   EXPECT_NEAR(points.back().a.position[0], 5, 0.01);
@@ -146,9 +146,9 @@ TEST(Cure, FollowsAnUndulatedLine) {
   const double amplitude = 0.25, k = 2 * M_PI / 5;
   for (auto& strand : panel.strands) {
     for (std::size_t p = 0; p < strand.size(); ++p) {
-      const double x = strand.x[p][0];
-      strand.x[p][1] += amplitude * std::sin(k * x);
-      strand.F[p](1, 0) = amplitude * k * std::cos(k * x);
+      const double x = strand.points.x[p][0];
+      strand.points.x[p][1] += amplitude * std::sin(k * x);
+      strand.points.F[p](1, 0) = amplitude * k * std::cos(k * x);
     }
   }
   double length = 0;

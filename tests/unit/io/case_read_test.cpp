@@ -140,8 +140,8 @@ TEST(CaseRead, KindsMayDifferInThicknessAndAngles) {
   for (const auto& strand : mat.layers[1].strands) EXPECT_NEAR(strand.angle_deg.value(), 10, 5);
   const auto panel = make_panel(c, mat);
   EXPECT_DOUBLE_EQ(panel.initial_thickness_mm, 2.1);
-  EXPECT_EQ(panel.strands.front().points[1], 12);  // twice the thickness of the core's
-  EXPECT_EQ(panel.strands.back().points[1], 6);
+  EXPECT_EQ(panel.strands.front().lattice.counts[1], 12);  // twice the thickness of the core's
+  EXPECT_EQ(panel.strands.back().lattice.counts[1], 6);
   const auto e = estimate(c, panel);
   EXPECT_DOUBLE_EQ(e.cell_height_mm, .7 / 3);
   EXPECT_NEAR(static_cast<double>(e.particles) / particle_count(c, mat), 1, .02);

@@ -58,8 +58,8 @@ Strand<Dim> any_strand(AnyDouble& any, int row, std::array<int, Dim> points) {
   strand.row = row;
   strand.angle_deg = any();
   strand.stiffness_factor = any();
-  strand.points = points;
-  fill(strand.spacing);
+  strand.lattice.counts = points;
+  fill(strand.lattice.spacing);
   strand.material.density = any();
   fill(strand.material.stiffness);
   fill(strand.material.yield_surface);
@@ -67,20 +67,17 @@ Strand<Dim> any_strand(AnyDouble& any, int row, std::array<int, Dim> points) {
   strand.material.hardening_K = any();
   strand.material.hardening_n = any();
   strand.material.crushing = {any(), any(), any(), any(), any()};
-  std::size_t n = 1;
-  for (const int extent : points) n *= static_cast<std::size_t>(extent);
-  strand.x.resize(n);
-  strand.v.resize(n);
-  strand.F.resize(n);
-  strand.stress.resize(n);
-  strand.plastic.resize(n);
-  for (std::size_t p = 0; p < n; ++p) {
-    fill(strand.x[p]);
-    fill(strand.v[p]);
-    fill(strand.F[p]);
-    fill(strand.stress[p]);
-    strand.plastic[p] = any();
-  }
+  for_each_field<Dim>([&](const auto& field) {
+    auto& values = strand.points.*field.values;
+    set_zero(values, strand.lattice.size());
+    for (auto& value : values) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) {
+        value = any();
+      } else {
+        fill(value);
+      }
+    }
+  });
   return strand;
 }
 
@@ -141,20 +138,18 @@ class Bits {
   void add(const Strand<Dim>& s) {
     for (const char c : s.kind) add(static_cast<long long>(c));
     add(static_cast<long long>(s.row));
-    for (const int extent : s.points) add(static_cast<long long>(extent));
+    for (const int extent : s.lattice.counts) add(static_cast<long long>(extent));
     add(s.angle_deg);
-    add(s.spacing);
+    add(s.lattice.spacing);
     add(s.material.density);
     add(s.material.stiffness);
     add(s.material.yield_surface);
     for (const double value : {s.material.Y_R, s.material.hardening_K, s.material.hardening_n}) add(value);
     const auto& k = s.material.crushing;
     for (const double value : {k.limit, k.start, k.h1, k.h2, k.exponent}) add(value);
-    for (const auto& value : s.x) add(value);
-    for (const auto& value : s.v) add(value);
-    for (const auto& value : s.F) add(value);
-    for (const auto& value : s.stress) add(value);
-    for (const double value : s.plastic) add(value);
+    for_each_field<Dim>([&](const auto& field) {
+      for (const auto& value : s.points.*field.values) add(value);
+    });
   }
   template <int Dim>
   void add(const Panel<Dim>& p) {

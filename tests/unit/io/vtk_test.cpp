@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "strandlab/core/error.hpp"
+#include "support/strands.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace strandlab::io {
@@ -20,27 +21,9 @@ using test::TemporaryFolder;
 
 template <int Dim>
 Strand<Dim> block(const std::array<int, Dim>& points, const Vec<Dim>& spacing, const Vec<Dim>& origin) {
-  Strand<Dim> s;
-  s.points = points;
-  s.spacing = spacing;
-  s.material.density = 350 * kTonnePerMm3;
-  std::size_t n = 1;
-  for (const int extent : points) n *= static_cast<std::size_t>(extent);
-  for (std::size_t p = 0; p < n; ++p) {
-    Vec<Dim> x = origin;
-    std::size_t rest = p;
-    for (int d = 0; d < Dim; ++d) {
-      const auto extent = static_cast<std::size_t>(points[static_cast<std::size_t>(d)]);
-      x[d] += (static_cast<double>(rest % extent) + 0.5) * spacing[d];
-      rest /= extent;
-    }
-    s.x.push_back(x);
-  }
-  s.v.assign(n, Vec<Dim>::Zero());
-  s.F.assign(n, Tensor<Dim>::Identity());
-  s.stress.assign(n, Voigt::Zero());
-  s.plastic.assign(n, 0.0);
-  return s;
+  wood::StrandMaterial material;
+  material.density = 350 * kTonnePerMm3;
+  return test::strand_from<Dim>(material, origin, spacing, points);
 }
 
 // Reads an array of the file back, independently of the writer: base64 by table look-up, UInt64 size, then the values.
@@ -70,10 +53,10 @@ TEST(Vtu, SectionHasOneQuadPerPoint) {
   Panel<2> panel;
   panel.strands = {block<2>({3, 2}, {0.5, 0.25}, {1, 2}), block<2>({2, 1}, {0.5, 0.5}, {1, 2.5})};
   panel.strands[1].row = 1;
-  panel.strands[1].F[1] = Tensor<2>{{1, 0}, {0, 0.5}};
-  panel.strands[1].stress[1] = Voigt{-1, -2, -3, 0, 0.5, 0};
-  panel.strands[1].plastic[1] = 0.125;
-  panel.strands[1].v[1] = Vec<2>(2000, -500);
+  panel.strands[1].points.F[1] = Tensor<2>{{1, 0}, {0, 0.5}};
+  panel.strands[1].points.stress[1] = Voigt{-1, -2, -3, 0, 0.5, 0};
+  panel.strands[1].points.plastic[1] = 0.125;
+  panel.strands[1].points.v[1] = Vec<2>(2000, -500);
   write_vtu(panel, folder / "p.vtu");
   const std::string file = contents(folder / "p.vtu");
   EXPECT_NE(file.find("<Piece NumberOfPoints=\"18\" NumberOfCells=\"8\">"), std::string::npos);  // 4 x 3 + 3 x 2

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "strandlab/core/error.hpp"
+#include "support/strands.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace strandlab::mpm {
@@ -17,28 +18,13 @@ constexpr double kCell = 0.25;  // mm, two particles
 // A strand along x of 96 x 6 particles (x 40 across): three tiles in a row (and in 3D three rows of six).
 template <int Dim>
 Body<Dim> long_strand() {
-  Strand<Dim> s;
+  std::array<int, Dim> counts{};
+  counts.fill(40);
+  counts[0] = 96;
+  counts[Dim - 1] = 6;
+  auto s = test::strand_from<Dim>(wood::in_strand_axes(wood::library().front(), 0), Vec<Dim>::Zero(),
+                                  Vec<Dim>::Constant(kCell / 2), counts);
   s.kind = "surface";
-  s.material = wood::in_strand_axes(wood::library().front(), 0);
-  s.points.fill(40);
-  s.points[0] = 96;
-  s.points[Dim - 1] = 6;
-  s.spacing = Vec<Dim>::Constant(kCell / 2);
-  std::size_t count = 1;
-  for (const int n : s.points) count *= static_cast<std::size_t>(n);
-  for (std::size_t p = 0; p < count; ++p) {
-    Vec<Dim> x;
-    std::size_t rest = p;
-    for (int a = 0; a < Dim; ++a) {
-      x[a] = (static_cast<double>(rest % s.points[a]) + 0.5) * s.spacing[a];
-      rest /= s.points[a];
-    }
-    s.x.push_back(x);
-  }
-  s.v.assign(count, Vec<Dim>::Zero());
-  s.F.assign(count, Tensor<Dim>::Identity());
-  s.stress.assign(count, Voigt::Zero());
-  s.plastic.assign(count, 0.0);
   return body_of(s);
 }
 
@@ -89,9 +75,10 @@ TEST(Colouring, OfNeighboursMustDiffer3D) {
 // says so before it loses a force.
 TEST(Colouring, FoldedStrandStopsTheRun) {
   auto body = long_strand<2>();
-  for (std::size_t p = 0; p < body.x.size(); ++p) {
+  for (std::size_t p = 0; p < body.points.x.size(); ++p) {
     const std::size_t column = p % 96;
-    if (column >= 48) body.x[p] += Vec<2>(static_cast<double>(95 - 2 * static_cast<int>(column)) * kCell / 2, 0.4);
+    if (column >= 48)
+      body.points.x[p] += Vec<2>(static_cast<double>(95 - 2 * static_cast<int>(column)) * kCell / 2, 0.4);
   }
   Grid<2> grid;
   grid.cell = Vec<2>::Constant(kCell);

@@ -55,20 +55,20 @@ void expect_says(const std::string& message, const std::vector<std::string>& par
 
 TEST(Failure, InvertedParticle) {
   auto body = strand_of(0, kLength);
-  body.F[40](1, 1) = -0.5;  // turned inside out
+  body.points.F[40](1, 1) = -0.5;  // turned inside out
   expect_says(failure_of(body),
               {"step 0", "ms", "particle 40 of surface strand in row 1", " mm", "inverted (det F = -"});
 }
 
 TEST(Failure, StressThatIsNotANumber) {
   auto body = strand_of(0, kLength);
-  body.stress[40][0] = std::numeric_limits<double>::quiet_NaN();
+  body.points.stress[40][0] = std::numeric_limits<double>::quiet_NaN();
   expect_says(failure_of(body), {"step 0", "surface strand in row 1", " mm", "stress is not finite"});
 }
 
 TEST(Failure, TimeStepThatFallsToNothing) {
   auto body = strand_of(0, kLength);
-  for (auto& v : body.v) v[0] = 1;  // mm/s
+  for (auto& v : body.points.v) v[0] = 1;  // mm/s
   auto engine = engine_of({body});
   engine.scale_velocities(1e12);
   expect_says(test::message_of<RunError>([&] { engine.step(); }),
@@ -77,16 +77,16 @@ TEST(Failure, TimeStepThatFallsToNothing) {
 
 TEST(Failure, ParticleOutsideTheGrid) {
   auto body = strand_of(0, kLength);
-  body.x[40][0] = 3 * kLength;
+  body.points.x[40][0] = 3 * kLength;
   expect_says(failure_of(body), {"step 0", "particle 40 of surface strand in row 1", "left the grid"});
 }
 
 // A strand as long as the mat, pushed out by its whole length: it is beside the mat, not lost. Further off it is.
 TEST(Failure, AFreeSideLetsAWholeStrandGo) {
   auto strand = piece_of(0, kLength);
-  for (auto& x : strand.x) x[0] += kLength;
+  for (auto& x : strand.points.x) x[0] += kLength;
   EXPECT_NO_THROW(engine_of({body_of(strand)}, Side::kFree).step());
-  for (auto& x : strand.x) x[0] += kLength;
+  for (auto& x : strand.points.x) x[0] += kLength;
   expect_says(test::message_of<RunError>([&] { engine_of({body_of(strand)}, Side::kFree).step(); }), {"left the grid"});
 }
 
@@ -95,8 +95,8 @@ TEST(Failure, AFreeSideLetsAWholeStrandGo) {
 TEST(Failure, ComesAtTheSameStepAfterARestart) {
   Panel<2> panel;
   panel.strands.push_back(piece_of(0, kLength));
-  for (auto& x : panel.strands[0].x) x[0] += kLength + 0.3;  // its end is 0.3 mm before the end of the room
-  for (auto& v : panel.strands[0].v) v[0] = 1e5;             // mm/s
+  for (auto& x : panel.strands[0].points.x) x[0] += kLength + 0.3;  // its end is 0.3 mm before the end of the room
+  for (auto& v : panel.strands[0].points.v) v[0] = 1e5;             // mm/s
   const auto failure = [](Engine<2>& engine) {
     return test::message_of<RunError>([&] {
       while (engine.state().step < 1000) engine.step();
@@ -118,7 +118,7 @@ TEST(Failure, ComesAtTheSameStepAfterARestart) {
 
 TEST(Failure, ParticleStretchedOutOfProportion) {
   auto body = strand_of(0, kLength);
-  body.F[0](0, 0) = 50;  // in the strand's bottom left corner: a point of its end face lies 25 spacings outside
+  body.points.F[0](0, 0) = 50;  // in the strand's bottom left corner: a point of its end face lies 25 spacings outside
   expect_says(failure_of(body), {"step 0", "surface strand in row 1 at (", "stretched out of all proportion"});
 }
 
@@ -147,7 +147,7 @@ TEST(Contact, ThatDoesNotSettleIsCounted) {
     std::vector<Body<2>> bodies(static_cast<std::size_t>(strands), strand_of(0, kLength));
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const double up = b % 2 ? 1 : -1;
-      for (auto& v : bodies[b].v) v = Vec<2>(0, up * 1000 * static_cast<double>(1 + b * b % 7));
+      for (auto& v : bodies[b].points.v) v = Vec<2>(0, up * 1000 * static_cast<double>(1 + b * b % 7));
     }
     Grid<2> grid;
     grid.cell = Vec<2>::Constant(kThick / 3);

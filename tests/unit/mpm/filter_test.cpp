@@ -9,6 +9,7 @@
 #include "strandlab/mpm/engine.hpp"
 #include "strandlab/mpm/shape_functions.hpp"
 #include "support/near.hpp"
+#include "support/strands.hpp"
 
 namespace strandlab::mpm {
 namespace {
@@ -20,26 +21,14 @@ template <int Dim>
 Body<Dim> noisy_block() {
   std::mt19937 random(5);
   std::uniform_real_distribution<> unit(-1, 1);
-  Strand<Dim> s;
+  std::array<int, Dim> counts{};
+  counts.fill(6);
+  auto s = test::strand_from<Dim>(wood::in_strand_axes(wood::library().front(), 0), Vec<Dim>::Constant(0.07),
+                                  Vec<Dim>::Constant(kCell / 2), counts);
   s.kind = "surface";
-  s.material = wood::in_strand_axes(wood::library().front(), 0);
-  s.points.fill(6);
-  s.spacing = Vec<Dim>::Constant(kCell / 2);
-  const int count = Dim == 2 ? 36 : 216;
-  for (int p = 0; p < count; ++p) {
-    Vec<Dim> x, v;
-    int rest = p;
-    for (int a = 0; a < Dim; ++a) {
-      x[a] = 0.07 + (rest % 6 + 0.5) * s.spacing[a];
-      v[a] = 1e-6 * unit(random);
-      rest /= 6;
-    }
-    s.x.push_back(x);
-    s.v.push_back(v);
+  for (auto& v : s.points.v) {
+    for (int a = 0; a < Dim; ++a) v[a] = 1e-6 * unit(random);
   }
-  s.F.assign(s.x.size(), Tensor<Dim>::Identity());
-  s.stress.assign(s.x.size(), Voigt::Zero());
-  s.plastic.assign(s.x.size(), 0.0);
   return body_of(s);
 }
 
@@ -48,11 +37,11 @@ template <int Dim>
 Eigen::MatrixXd weights(const Body<Dim>& body) {
   std::map<std::array<int, Dim>, Eigen::Index> nodes;
   std::vector<std::tuple<Eigen::Index, Eigen::Index, double>> entries;
-  for (std::size_t p = 0; p < body.x.size(); ++p) {
+  for (std::size_t p = 0; p < body.points.x.size(); ++p) {
     std::array<int, Dim> node;
     std::array<Gimp3, Dim> axis;
     for (int a = 0; a < Dim; ++a) {
-      const double xi = body.x[p][a] / kCell;
+      const double xi = body.points.x[p][a] / kCell;
       node[a] = static_cast<int>(std::lround(xi));
       axis[a] = gimp(xi - node[a], 0.25);
     }
@@ -71,7 +60,7 @@ Eigen::MatrixXd weights(const Body<Dim>& body) {
     }
   }
   Eigen::MatrixXd S =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(body.x.size()), static_cast<Eigen::Index>(nodes.size()));
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(body.points.x.size()), static_cast<Eigen::Index>(nodes.size()));
   for (const auto& [p, i, w] : entries) S(p, i) += w;
   return S;
 }
@@ -79,11 +68,11 @@ Eigen::MatrixXd weights(const Body<Dim>& body) {
 template <int Dim>
 void expect_filtered() {
   std::vector<Body<Dim>> bodies{noisy_block<Dim>()};
-  const auto count = static_cast<Eigen::Index>(bodies[0].x.size());
+  const auto count = static_cast<Eigen::Index>(bodies[0].points.x.size());
   const Eigen::MatrixXd S = weights(bodies[0]);
   const Eigen::MatrixXd to_nodes = S.colwise().sum().cwiseInverse().asDiagonal() * S.transpose();
   Eigen::MatrixXd v(count, Dim);
-  for (Eigen::Index p = 0; p < count; ++p) v.row(p) = bodies[0].v[static_cast<std::size_t>(p)].transpose();
+  for (Eigen::Index p = 0; p < count; ++p) v.row(p) = bodies[0].points.v[static_cast<std::size_t>(p)].transpose();
   const Eigen::MatrixXd at_nodes = to_nodes * v;
   const Eigen::MatrixXd expected = S * (2 * at_nodes - to_nodes * (S * at_nodes));
   Grid<Dim> grid;
@@ -97,7 +86,8 @@ void expect_filtered() {
   engine.step();
   engine.write(bodies);
   Eigen::MatrixXd filtered(count, Dim);
-  for (Eigen::Index p = 0; p < count; ++p) filtered.row(p) = bodies[0].v[static_cast<std::size_t>(p)].transpose();
+  for (Eigen::Index p = 0; p < count; ++p)
+    filtered.row(p) = bodies[0].points.v[static_cast<std::size_t>(p)].transpose();
   EXPECT_THAT(filtered, test::VecNear(expected, 1e-14));  // mm/s, of 1e-6
 }
 

@@ -7,6 +7,7 @@
 
 #include "strandlab/mpm/engine.hpp"
 #include "support/near.hpp"
+#include "support/strands.hpp"
 
 namespace strandlab::mpm {
 namespace {
@@ -18,30 +19,14 @@ constexpr double kCell = 0.5;  // mm
 // A block of 8 (x 6) x 4 particles, two per cell and axis, its lowest corner at `corner`.
 template <int Dim>
 Body<Dim> block_at(const Vec<Dim>& corner) {
-  Strand<Dim> s;
-  s.kind = "block";
   wood::Material stiff = wood::library().front();
   stiff.Y_R = stiff.Y_T = stiff.S_RT = 1e6;  // never yields
-  s.material = wood::in_strand_axes(stiff, 0);
-  s.points.fill(6);
-  s.points[0] = 8;
-  s.points[Dim - 1] = 4;
-  s.spacing = Vec<Dim>::Constant(kCell / 2);
-  int count = 1;
-  for (const int n : s.points) count *= n;
-  for (int p = 0; p < count; ++p) {
-    Vec<Dim> x;
-    int rest = p;
-    for (int a = 0; a < Dim; ++a) {
-      x[a] = corner[a] + (rest % s.points[a] + 0.5) * s.spacing[a];
-      rest /= s.points[a];
-    }
-    s.x.push_back(x);
-  }
-  s.v.assign(s.x.size(), Vec<Dim>::Zero());
-  s.F.assign(s.x.size(), Tensor<Dim>::Identity());
-  s.stress.assign(s.x.size(), Voigt::Zero());
-  s.plastic.assign(s.x.size(), 0.0);
+  std::array<int, Dim> counts{};
+  counts.fill(6);
+  counts[0] = 8;
+  counts[Dim - 1] = 4;
+  auto s = test::strand_from<Dim>(wood::in_strand_axes(stiff, 0), corner, Vec<Dim>::Constant(kCell / 2), counts);
+  s.kind = "block";
   return body_of(s);
 }
 
@@ -57,7 +42,7 @@ Grid<Dim> open_grid() {
 
 template <int Dim>
 double mass_of(const Body<Dim>& body) {
-  return body.material.density * body.spacing.prod() * static_cast<double>(body.x.size());
+  return body.material.density * body.lattice.point_volume() * static_cast<double>(body.points.x.size());
 }
 
 template <int Dim>
@@ -79,20 +64,21 @@ void expect_work_of_gravity() {
   apart[y] = 4;
   above[y] = 4 * kCell / 2 + 0.05;
   std::vector<Body<Dim>> bodies{block_at<Dim>(Vec<Dim>::Zero()), block_at<Dim>(above), block_at<Dim>(apart)};
-  for (auto& v : bodies[1].v) v[y] = -20000;  // mm/s: over the gap within 70 steps
+  for (auto& v : bodies[1].points.v) v[y] = -20000;  // mm/s: over the gap within 70 steps
   std::vector<Vec<Dim>> start;
-  for (const auto& body : bodies) start.push_back(mean<Dim>(body.x));
+  for (const auto& body : bodies) start.push_back(mean<Dim>(body.points.x));
   Engine<Dim> engine(bodies, open_grid<Dim>(), {});
   engine.set_platens({0, 0}, {12, 0});
   engine.set_gravity(g);
   for (int step = 0; step < 300; ++step) engine.step();
   engine.write(bodies);
   double work = 0;
-  for (std::size_t b = 0; b < bodies.size(); ++b) work += mass_of(bodies[b]) * g.dot(mean<Dim>(bodies[b].x) - start[b]);
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    work += mass_of(bodies[b]) * g.dot(mean<Dim>(bodies[b].points.x) - start[b]);
   EXPECT_NEAR(engine.energies().external_work / work, 1, 1e-9);
   EXPECT_GT(engine.energies().contact, 0);  // they met
-  EXPECT_GT(mean<Dim>(bodies[1].v)[y], -15000);
-  EXPECT_THAT(mean<Dim>(bodies[2].v),
+  EXPECT_GT(mean<Dim>(bodies[1].points.v)[y], -15000);
+  EXPECT_THAT(mean<Dim>(bodies[2].points.v),
               VecNear(Vec<Dim>(engine.state().time_s * g), 1e-9 * g.norm() * engine.state().time_s));
 }
 
@@ -110,7 +96,7 @@ void expect_tractions_balance_stress() {
   Body<Dim> body = block_at<Dim>(Vec<Dim>::Constant(0.2));
   Voigt tau = Voigt::Zero();
   tau << 3, Dim == 3 ? -2.0 : 0.0, 1, Dim == 3 ? 0.7 : 0.0, 0.5, Dim == 3 ? -0.4 : 0.0;  // MPa; 11 22 33 23 13 12
-  for (auto& s : body.stress) s = tau;
+  for (auto& s : body.points.stress) s = tau;
   Tensor<Dim> sigma;
   if constexpr (Dim == 2)
     sigma << tau[0], tau[4], tau[4], tau[2];
@@ -125,7 +111,7 @@ void expect_tractions_balance_stress() {
   engine.step();
   engine.write(bodies);
   const double unbalanced = dt * sigma.norm() / (body.material.density * kCell);  // mm/s, by one face alone
-  for (const auto& v : bodies[0].v) ASSERT_THAT(v, VecNear(Vec<Dim>(Vec<Dim>::Zero()), 1e-12 * unbalanced));
+  for (const auto& v : bodies[0].points.v) ASSERT_THAT(v, VecNear(Vec<Dim>(Vec<Dim>::Zero()), 1e-12 * unbalanced));
   EXPECT_NEAR(engine.energies().external_work, 0, 1e-12 * unbalanced);
 }
 
@@ -174,10 +160,11 @@ void expect_spring_pulls() {
   v[0] = -2;
   normal[0] = 0.6;
   normal[Dim - 1] = std::sqrt(1 - normal.head(Dim - 1).squaredNorm());
-  for (auto& velocity : bodies[1].v) velocity = v;
+  for (auto& velocity : bodies[1].points.v) velocity = v;
   const double area = 0.7, k_t = 20, k_n = 50;
   Engine<Dim> engine(bodies, open_grid<Dim>(), {});
-  engine.set_springs({{{0, 3, bodies[0].spacing * 0.5}, {1, 8, bodies[0].spacing * -0.3}, normal, area, k_t, k_n}});
+  engine.set_springs(
+      {{{0, 3, bodies[0].lattice.spacing * 0.5}, {1, 8, bodies[0].lattice.spacing * -0.3}, normal, area, k_t, k_n}});
   engine.step();
   const double dt1 = engine.state().time_step_s;
   const Vec<Dim> jump = dt1 * v, opening = jump.dot(normal) * normal;
@@ -186,8 +173,8 @@ void expect_spring_pulls() {
   engine.step();
   engine.write(bodies);
   const double dt2 = engine.state().time_step_s;
-  const Vec<Dim> of_first = mass_of(bodies[0]) * mean<Dim>(bodies[0].v);
-  const Vec<Dim> of_second = mass_of(bodies[1]) * (mean<Dim>(bodies[1].v) - v);
+  const Vec<Dim> of_first = mass_of(bodies[0]) * mean<Dim>(bodies[0].points.v);
+  const Vec<Dim> of_second = mass_of(bodies[1]) * (mean<Dim>(bodies[1].points.v) - v);
   EXPECT_THAT(of_first, VecNear(Vec<Dim>(dt2 * pull), 1e-10 * dt2 * pull.norm()));
   EXPECT_THAT(of_second, VecNear(Vec<Dim>(-dt2 * pull), 1e-9 * dt2 * pull.norm()));
 }

@@ -97,7 +97,7 @@ void expect_linear_field() {
   Body<Dim> body;
   body.name = "cloud";
   body.material = wood::in_strand_axes(wood::library()[0], 0);
-  body.spacing = Vec<Dim>::Constant(0.5);
+  body.lattice.spacing = Vec<Dim>::Constant(0.5);
   for (int p = 0; p < 203; ++p) {
     Vec<Dim> x;
     Tensor<Dim> F = Tensor<Dim>::Identity();
@@ -105,12 +105,12 @@ void expect_linear_field() {
       x[a] = 10 * unit(random);
       for (int b = 0; b < Dim; ++b) F(a, b) += 0.6 * (unit(random) - 0.5);
     }
-    body.x.push_back(x);
-    body.F.push_back(F);
+    body.points.x.push_back(x);
+    body.points.F.push_back(F);
   }
-  body.v.assign(body.x.size(), Vec<Dim>::Zero());
-  body.stress.assign(body.x.size(), Voigt::Zero());
-  body.plastic.assign(body.x.size(), 0.0);
+  body.points.v.assign(body.points.size(), Vec<Dim>::Zero());
+  body.points.stress.assign(body.points.size(), Voigt::Zero());
+  body.points.plastic.assign(body.points.size(), 0.0);
   Grid<Dim> grid;
   for (int a = 0; a < Dim; ++a) grid.cell[a] = 0.7 + 0.2 * a;
   grid.origin = Vec<Dim>::Constant(0.13);
@@ -128,10 +128,10 @@ void expect_linear_field() {
   engine.impose(dt, [&](const Vec<Dim>& x) { return Vec<Dim>(b + A * x); });
   engine.write(bodies);
   const Tensor<Dim> step = Tensor<Dim>::Identity() + dt * A + 0.5 * dt * dt * A * A;
-  for (std::size_t p = 0; p < body.x.size(); ++p) {
-    const Vec<Dim> x = body.x[p] + dt * (b + A * body.x[p]);
-    EXPECT_THAT(bodies[0].x[p], test::VecNear(x, 1e-13)) << "particle " << p;
-    EXPECT_THAT(bodies[0].F[p], test::VecNear((step * body.F[p]).eval(), 1e-14)) << "particle " << p;
+  for (std::size_t p = 0; p < body.points.x.size(); ++p) {
+    const Vec<Dim> x = body.points.x[p] + dt * (b + A * body.points.x[p]);
+    EXPECT_THAT(bodies[0].points.x[p], test::VecNear(x, 1e-13)) << "particle " << p;
+    EXPECT_THAT(bodies[0].points.F[p], test::VecNear((step * body.points.F[p]).eval(), 1e-14)) << "particle " << p;
   }
 }
 

@@ -31,16 +31,16 @@ void deform(Panel<2>& panel, const Map& map) {
       for (int d = 0; d < 2; ++d) {
         Vec<2> step = Vec<2>::Zero();
         step[d] = kStep;
-        s.F[p].col(d) = (map(s.x[p] + step) - map(s.x[p] - step)) / (2 * kStep);
+        s.points.F[p].col(d) = (map(s.points.x[p] + step) - map(s.points.x[p] - step)) / (2 * kStep);
       }
-      s.x[p] = map(s.x[p]);
+      s.points.x[p] = map(s.points.x[p]);
     }
   }
 }
 
 double area(const Strand<2>& strand) {
   double sum = 0;
-  for (const auto& F : strand.F) sum += F.determinant() * strand.point_volume();
+  for (const auto& F : strand.points.F) sum += F.determinant() * strand.lattice.point_volume();
   return sum;
 }
 
@@ -52,9 +52,9 @@ TEST(Lumped, HomogeneousDeformationIsExact) {
   deform(panel, [&](const Vec<2>& x) -> Vec<2> { return F * x; });
   const auto coarse = lumped(panel, 7.0 / 3, 2);
   const auto& s = coarse.strands.at(0);
-  ASSERT_EQ(s.points, (std::array<int, 2>{3, 2}));
-  EXPECT_NEAR(s.points[0] * s.spacing[0], 7, 1e-12);
-  for (const auto& g : s.F) EXPECT_LT((g - F).norm(), 1e-8);
+  ASSERT_EQ(s.lattice.counts, (std::array<int, 2>{3, 2}));
+  EXPECT_NEAR(s.lattice.extent(0), 7, 1e-12);
+  for (const auto& g : s.points.F) EXPECT_LT((g - F).norm(), 1e-8);
   const auto lattice = corners(s);
   for (int j = 0; j <= 2; ++j) {
     for (int i = 0; i <= 3; ++i) {
@@ -81,17 +81,17 @@ TEST(Lumped, MeansKeepTotals) {
   auto& fine = panel.strands[0];
   double plastic = 0, stress = 0;
   for (std::size_t p = 0; p < fine.size(); ++p) {
-    fine.plastic[p] = 0.1 * static_cast<double>(p % 7) + static_cast<double>(p / 7);
-    fine.stress[p][2] = -fine.plastic[p] * fine.plastic[p];
-    plastic += fine.plastic[p] * fine.point_volume();
-    stress += fine.stress[p][2] * fine.point_volume();
+    fine.points.plastic[p] = 0.1 * static_cast<double>(p % 7) + static_cast<double>(p / 7);
+    fine.points.stress[p][2] = -fine.points.plastic[p] * fine.points.plastic[p];
+    plastic += fine.points.plastic[p] * fine.lattice.point_volume();
+    stress += fine.points.stress[p][2] * fine.lattice.point_volume();
   }
   const auto coarse = lumped(panel, 7.0 / 3, 4);
   const auto& s = coarse.strands[0];
   double coarse_plastic = 0, coarse_stress = 0;
   for (std::size_t p = 0; p < s.size(); ++p) {
-    coarse_plastic += s.plastic[p] * s.point_volume();
-    coarse_stress += s.stress[p][2] * s.point_volume();
+    coarse_plastic += s.points.plastic[p] * s.lattice.point_volume();
+    coarse_stress += s.points.stress[p][2] * s.lattice.point_volume();
   }
   EXPECT_NEAR(coarse_plastic, plastic, 1e-12 * plastic);
   EXPECT_NEAR(coarse_stress, stress, 1e-12 * std::abs(stress));
@@ -99,8 +99,8 @@ TEST(Lumped, MeansKeepTotals) {
 
 TEST(Lumped, NeverFinerThanThePanelAndNeverNothing) {
   const auto panel = one_strand();
-  EXPECT_EQ(lumped(panel, 1e-3, 50).strands[0].points, panel.strands[0].points);
-  EXPECT_EQ(lumped(panel, 1e3, 1).strands[0].points, (std::array<int, 2>{1, 1}));
+  EXPECT_EQ(lumped(panel, 1e-3, 50).strands[0].lattice.counts, panel.strands[0].lattice.counts);
+  EXPECT_EQ(lumped(panel, 1e3, 1).strands[0].lattice.counts, (std::array<int, 2>{1, 1}));
   EXPECT_THROW(lumped(panel, 0, 3), std::invalid_argument);
   EXPECT_THROW(lumped(panel, 1, 0), std::invalid_argument);
 }

@@ -50,15 +50,15 @@ TEST(MakePanel, ParticlesFillEveryStrandExactly) {
         const auto& s = panel.strands.at(next++);
         EXPECT_EQ(s.row, static_cast<int>(row));
         EXPECT_EQ(s.kind, mat.layers[row].role);
-        EXPECT_EQ(s.points[1], 6);
-        ASSERT_EQ(s.size(), static_cast<std::size_t>(s.points[0]) * static_cast<std::size_t>(s.points[1]));
+        EXPECT_EQ(s.lattice.counts[1], 6);
+        ASSERT_EQ(s.size(), s.lattice.size());
         const double length = piece.x1_mm - piece.x0_mm;
-        EXPECT_NEAR(s.spacing[0] * s.points[0], length, 1e-13 * length);
-        EXPECT_LT(std::abs(s.points[0] - length / asked), 0.5 + 1e-9);
-        EXPECT_NEAR(s.x.front()[0] - s.spacing[0] / 2, piece.x0_mm, 1e-12);
-        EXPECT_NEAR(s.x.back()[0] + s.spacing[0] / 2, piece.x1_mm, 1e-12);
-        EXPECT_NEAR(s.x.front()[1] - s.spacing[1] / 2, 0.8 * s.row, 1e-13);
-        EXPECT_NEAR(s.x.back()[1] + s.spacing[1] / 2, 0.8 * (s.row + 1), 1e-13);
+        EXPECT_NEAR(s.lattice.extent(0), length, 1e-13 * length);
+        EXPECT_LT(std::abs(s.lattice.counts[0] - length / asked), 0.5 + 1e-9);
+        EXPECT_NEAR(s.points.x.front()[0] - s.lattice.spacing[0] / 2, piece.x0_mm, 1e-12);
+        EXPECT_NEAR(s.points.x.back()[0] + s.lattice.spacing[0] / 2, piece.x1_mm, 1e-12);
+        EXPECT_NEAR(s.points.x.front()[1] - s.lattice.spacing[1] / 2, 0.8 * s.row, 1e-13);
+        EXPECT_NEAR(s.points.x.back()[1] + s.lattice.spacing[1] / 2, 0.8 * (s.row + 1), 1e-13);
       }
     }
     EXPECT_EQ(next, panel.strands.size());
@@ -68,10 +68,10 @@ TEST(MakePanel, ParticlesFillEveryStrandExactly) {
 // Order of the lattice: along fastest, rows of points from the bottom up.
 TEST(MakePanel, PointsRunAlongFirst) {
   const auto s = make_panel(one_strand(10, 14), kinds(), 1.0, 2).strands.at(1);
-  ASSERT_EQ(s.points[0], 4);
+  ASSERT_EQ(s.lattice.counts[0], 4);
   for (int j = 0; j < 2; ++j) {
     for (int i = 0; i < 4; ++i) {
-      const auto& x = s.x[static_cast<std::size_t>(i) + 4 * static_cast<std::size_t>(j)];
+      const auto& x = s.points.x[static_cast<std::size_t>(i) + 4 * static_cast<std::size_t>(j)];
       EXPECT_NEAR(x[0], 10.5 + i, 1e-13);
       EXPECT_NEAR(x[1], 1.0 + 0.4 * j, 1e-13);
     }
@@ -80,9 +80,9 @@ TEST(MakePanel, PointsRunAlongFirst) {
 
 TEST(MakePanel, AStrandShorterThanTheSpacingIsOnePointLong) {
   const auto s = make_panel(one_strand(99.99, 100), kinds(), 0.4, 3).strands.at(0);
-  EXPECT_EQ(s.points[0], 1);
-  EXPECT_NEAR(s.spacing[0], 0.01, 1e-12);
-  EXPECT_NEAR(s.x[0][0], 99.995, 1e-12);
+  EXPECT_EQ(s.lattice.counts[0], 1);
+  EXPECT_NEAR(s.lattice.spacing[0], 0.01, 1e-12);
+  EXPECT_NEAR(s.points.x[0][0], 99.995, 1e-12);
 }
 
 TEST(MakePanel, StartsAtRestUnstrainedAndUncompacted) {
@@ -92,9 +92,9 @@ TEST(MakePanel, StartsAtRestUnstrainedAndUncompacted) {
   EXPECT_EQ(panel.compaction(), 0);
   for (const auto& s : panel.strands) {
     for (std::size_t p = 0; p < s.size(); ++p) {
-      EXPECT_EQ(s.F[p], Tensor<2>::Identity());
-      EXPECT_TRUE(s.v[p].isZero(0) && s.stress[p].isZero(0));
-      EXPECT_EQ(s.plastic[p], 0);
+      EXPECT_EQ(s.points.F[p], Tensor<2>::Identity());
+      EXPECT_TRUE(s.points.v[p].isZero(0) && s.points.stress[p].isZero(0));
+      EXPECT_EQ(s.points.plastic[p], 0);
     }
   }
 }
@@ -125,11 +125,11 @@ TEST(MakePanel, RowsTakeTheirThickness) {
   const std::array<double, 4> faces{0, 1.1, 1.9, 3.9};
   for (const auto& s : panel.strands) {
     const auto row = static_cast<std::size_t>(s.row);
-    EXPECT_EQ(s.points[1], points[row]);
-    EXPECT_NEAR(formed_thickness(s), faces[row + 1] - faces[row], 1e-13);
-    EXPECT_NEAR(s.x.front()[1] - s.spacing[1] / 2, faces[row], 1e-13);
-    EXPECT_NEAR(s.x.back()[1] + s.spacing[1] / 2, faces[row + 1], 1e-13);
-    EXPECT_NEAR(s.spacing[1], .8 / 6, .04 * .8 / 6);
+    EXPECT_EQ(s.lattice.counts[1], points[row]);
+    EXPECT_NEAR(s.lattice.thickness(), faces[row + 1] - faces[row], 1e-13);
+    EXPECT_NEAR(s.points.x.front()[1] - s.lattice.spacing[1] / 2, faces[row], 1e-13);
+    EXPECT_NEAR(s.points.x.back()[1] + s.lattice.spacing[1] / 2, faces[row + 1], 1e-13);
+    EXPECT_NEAR(s.lattice.spacing[1], .8 / 6, .04 * .8 / 6);
   }
   EXPECT_NEAR(thinnest_strand(panel), .8, 1e-15);
 }
@@ -155,11 +155,11 @@ TEST(MakePanel, StrandsYieldByTheLawOfTheirKind) {
   auto mat = one_strand(0, 100);
   const auto plain = make_panel(mat, crushing, .4, 3).strands[0];
   EXPECT_TRUE(plain.material.crushes());
-  EXPECT_EQ(plain.plastic[0], 0);
+  EXPECT_EQ(plain.points.plastic[0], 0);
   mat.layers[0].strands[0].material = "vtc";
   const auto dense = make_panel(mat, crushing, .4, 3).strands[0];
   EXPECT_TRUE(dense.material.crushes());
-  for (const double x : dense.plastic) EXPECT_NEAR(x, 1 - 350.0 / 910, 1e-15);
+  for (const double x : dense.points.plastic) EXPECT_NEAR(x, 1 - 350.0 / 910, 1e-15);
 }
 
 // Rows off the grain: held (six stresses in a section) or free to shear across (four).
@@ -218,12 +218,12 @@ TEST(MakePanel, UnknownRoleAndMaterialAreInputErrors) {
 TEST(Corners, OfAnUndeformedStrandAreExact) {
   const auto s = make_panel(one_strand(12.5, 31.7), kinds(), 0.3, 4).strands.at(1);
   const auto c = corners(s);
-  ASSERT_EQ(c.size(), (static_cast<std::size_t>(s.points[0]) + 1) * 5);
+  ASSERT_EQ(c.size(), (static_cast<std::size_t>(s.lattice.counts[0]) + 1) * 5);
   for (int j = 0; j <= 4; ++j) {
-    for (int i = 0; i <= s.points[0]; ++i) {
-      const auto& corner =
-          c[static_cast<std::size_t>(i) + (static_cast<std::size_t>(s.points[0]) + 1) * static_cast<std::size_t>(j)];
-      EXPECT_NEAR(corner[0], 12.5 + i * 19.2 / s.points[0], 1e-12);
+    for (int i = 0; i <= s.lattice.counts[0]; ++i) {
+      const auto& corner = c[static_cast<std::size_t>(i) +
+                             (static_cast<std::size_t>(s.lattice.counts[0]) + 1) * static_cast<std::size_t>(j)];
+      EXPECT_NEAR(corner[0], 12.5 + i * 19.2 / s.lattice.counts[0], 1e-12);
       EXPECT_NEAR(corner[1], 0.8 + 0.2 * j, 1e-12);
     }
   }
@@ -237,8 +237,8 @@ TEST(Corners, OfAnAffinelyDeformedStrandAreExact) {
   A << 1.03, 0.21, -0.15, 0.62;
   const Vec<2> b(3.5, -0.7);
   for (std::size_t p = 0; p < s.size(); ++p) {
-    s.x[p] = A * s.x[p] + b;
-    s.F[p] = A;
+    s.points.x[p] = A * s.points.x[p] + b;
+    s.points.F[p] = A;
   }
   const auto after = corners(s);
   for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LT((after[i] - (A * before[i] + b)).norm(), 1e-12) << i;

@@ -120,7 +120,7 @@ TEST(Press, SymmetricPlatensKeepTheMiddle) {
   EXPECT_NEAR(0.5 * (last.bottom_mm + last.top_mm), kRow, 1e-9);
   double mean = 0;
   for (const auto& s : last.strands) {
-    for (const auto& x : s.x) mean += x[1] / static_cast<double>(2 * s.size());
+    for (const auto& x : s.points.x) mean += x[1] / static_cast<double>(2 * s.size());
   }
   EXPECT_NEAR(mean, kRow, 0.01 * 0.1 * 2 * kRow);
 }
@@ -190,7 +190,7 @@ TEST(Press, WarningsSayWhereInertiaNoLongerShows) {
 std::vector<press::Checkpoint<2>> states_of_failing_press(double speed_mm_s, const press::Schedule& schedule,
                                                           double checkpoint_interval_s) {
   auto panel = rows(2, 2 * kRow);
-  for (auto& s : panel.strands) s.v.assign(s.size(), Vec<2>(speed_mm_s, 0));
+  for (auto& s : panel.strands) s.points.v.assign(s.size(), Vec<2>(speed_mm_s, 0));
   mpm::Options smooth;
   smooth.friction = smooth.platen_friction = 0;
   std::vector<press::Checkpoint<2>> states;
@@ -301,7 +301,7 @@ TEST(Frames, AreEvenAndComeAgainAfterAResume) {
   std::vector<int> again;
   sink.frame = [&](const Panel<2>& p, int index) {
     again.push_back(index);
-    EXPECT_EQ(p.strands[1].x, frames[static_cast<std::size_t>(index)].strands[1].x) << "frame " << index;
+    EXPECT_EQ(p.strands[1].points.x, frames[static_cast<std::size_t>(index)].strands[1].points.x) << "frame " << index;
   };
   press::press<2>(panel, schedule, setup, sink, checkpoints[1]);
   EXPECT_EQ(again, (std::vector<int>{4, 5, 6, 7, 8}));

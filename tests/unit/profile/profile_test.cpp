@@ -80,7 +80,7 @@ Panel<Dim> tilted_panel() {
   for (int s = 0; s < 2; ++s) {
     Strand<Dim> strand;
     strand.material.density = (s == 0 ? 400 : 800) * kTonnePerMm3;
-    strand.spacing = Vec<Dim>::Constant(0.2);
+    strand.lattice.spacing = Vec<Dim>::Constant(0.2);
     for (int i = 0; i < 300; ++i) {
       const double u = i / 300.0, t = 0.01 * i;
       Vec<Dim> x = Vec<Dim>::Constant(10 * u);
@@ -90,8 +90,8 @@ Panel<Dim> tilted_panel() {
       F(Dim - 1, 0) = std::sin(t);
       F(0, Dim - 1) = -0.7 * std::sin(t);
       F(Dim - 1, Dim - 1) = 0.7 * std::cos(t);
-      strand.x.push_back(x);
-      strand.F.push_back(F);
+      strand.points.x.push_back(x);
+      strand.points.F.push_back(F);
     }
     panel.strands.push_back(strand);
   }
@@ -102,7 +102,7 @@ template <int Dim>
 double mass_over_area(const Panel<Dim>& panel) {  // kg/m^3 mm
   double mass = 0;
   for (const auto& s : panel.strands)
-    mass += s.material.density / kTonnePerMm3 * s.point_volume() * static_cast<double>(s.size());
+    mass += s.material.density / kTonnePerMm3 * s.lattice.point_volume() * static_cast<double>(s.size());
   return mass / (panel.length_mm * panel.depth_mm);
 }
 
@@ -128,10 +128,10 @@ TEST(DensityProfile, PutsMassWhereThePointsAre) {
   panel.initial_thickness_mm = panel.top_mm = 4;
   Strand<2> strand;
   strand.material.density = 500 * kTonnePerMm3;
-  strand.spacing = {1, 1};
-  strand.x = {{0.5, 1.0}, {1.5, 3.0}};
-  strand.F.assign(2, Tensor<2>::Identity());
-  strand.F[1](1, 0) = 1;  // spans 2 mm: a parallelogram with triangular ends, 1/8 beyond half a millimetre
+  strand.lattice.spacing = {1, 1};
+  strand.points.x = {{0.5, 1.0}, {1.5, 3.0}};
+  strand.points.F.assign(2, Tensor<2>::Identity());
+  strand.points.F[1](1, 0) = 1;  // spans 2 mm: a parallelogram with triangular ends, 1/8 beyond half a millimetre
   panel.strands = {strand};
   const auto p = density_profile(panel, 8);  // half-millimetre bins
   const std::vector<double> share{0, .5, .5, 0, .125, .375, .375, .125};
@@ -142,8 +142,8 @@ TEST(DensityProfile, OfAMirroredMatIsMirrored) {
   const auto panel = tilted_panel<2>();
   auto mirrored = panel;
   for (auto& strand : mirrored.strands) {
-    for (auto& x : strand.x) x[1] = panel.top_mm + panel.bottom_mm - x[1];
-    for (auto& F : strand.F) F.row(1) *= -1;
+    for (auto& x : strand.points.x) x[1] = panel.top_mm + panel.bottom_mm - x[1];
+    for (auto& F : strand.points.F) F.row(1) *= -1;
   }
   const auto p = density_profile(panel, 37), q = density_profile(mirrored, 37);
   for (std::size_t k = 0; k < 37; ++k) EXPECT_NEAR(p.density_kg_m3[k], q.density_kg_m3[36 - k], 1e-9 * 400) << k;

@@ -55,8 +55,8 @@ std::vector<Panel<2>> film() {
     test::compact(panel, compaction);
     for (auto& strand : panel.strands) {
       for (std::size_t p = 0; p < strand.size(); ++p) {
-        strand.plastic[p] = compaction * static_cast<double>(p);
-        strand.stress[p][2] = -10 * compaction * static_cast<double>(p % 7);
+        strand.points.plastic[p] = compaction * static_cast<double>(p);
+        strand.points.stress[p][2] = -10 * compaction * static_cast<double>(p % 7);
       }
     }
     frames.push_back(panel);
@@ -98,7 +98,7 @@ TEST(Frames, UnpackToTheQuantum) {
         for (std::size_t p = 0; p < strand.size(); ++p) {
           const double shown = low + (high - low) * bytes.at(at++) / 255;
           if (field.at("key") == "plastic_strain") {
-            EXPECT_NEAR(shown, strand.plastic[p], (high - low) / 255 + 1e-12);
+            EXPECT_NEAR(shown, strand.points.plastic[p], (high - low) / 255 + 1e-12);
           }
           if (field.at("key") == "density_kg_m3") {
             EXPECT_NEAR(shown, density_kg_m3(strand, p), (high - low) / 255 + 1e-9);

@@ -84,7 +84,7 @@ TEST(Areas, ElementThatIsNotConvex) {
   for (std::size_t stretched = 0; stretched < 4; ++stretched) {
     auto strand = flat_strand(4, 6, 4, 6, 2, 2);
     const double side = stretched == 0 || stretched == 3 ? 1 : -1;
-    strand.F[stretched] += 3 * Tensor<2>{{1, side}, {side, 1}};
+    strand.points.F[stretched] += 3 * Tensor<2>{{1, side}, {side, 1}};
     const auto a = areas(panel_of({strand, flat_strand(0, 10, 0, 10, 9, 5)}, 10, 10));
     EXPECT_NEAR(a.overlap, 7.0 / 100, kExact) << "element " << stretched;
   }

@@ -61,9 +61,9 @@ TEST(PointFields, AngleDensityAndThickness) {
   EXPECT_NEAR(grain_angle_deg<3>(F), -degrees, 1e-12);
   Strand<2> strand;
   strand.material.density = 350 * kTonnePerMm3;
-  strand.F = {Tensor<2>{{1, 0}, {0.2, 0.6}}};
+  strand.points.F = {Tensor<2>{{1, 0}, {0.2, 0.6}}};
   EXPECT_NEAR(density_kg_m3(strand, 0), 350 / 0.6, 1e-9);
-  EXPECT_NEAR(thickness_strain<2>(strand.F[0]), 0.6 / std::hypot(1, 0.2) - 1, 1e-14);
+  EXPECT_NEAR(thickness_strain<2>(strand.points.F[0]), 0.6 / std::hypot(1, 0.2) - 1, 1e-14);
   Tensor<3> pressed = Tensor<3>::Identity();
   pressed(2, 2) = 0.6;
   EXPECT_NEAR(thickness_strain<3>(pressed), -0.4, 1e-14);

@@ -90,7 +90,7 @@ TEST(ColourRange, IsSharedRoundAndSymmetric) {
   const auto density = common_range({&before, &after}, Colouring::kDensity);
   EXPECT_EQ(density.low, 350);
   EXPECT_EQ(density.high, 600);
-  for (auto& F : after.strands[0].F) F = Tensor<2>{{1, 0}, {-std::tan(0.2), 1}} * F;  // -11.46 degrees
+  for (auto& F : after.strands[0].points.F) F = Tensor<2>{{1, 0}, {-std::tan(0.2), 1}} * F;  // -11.46 degrees
   const auto angle = common_range({&before, &after}, Colouring::kGrainAngle);
   EXPECT_EQ(angle.low, -12);
   EXPECT_EQ(angle.high, 12);

@@ -8,6 +8,7 @@
 
 #include "strandlab/mat/mat.hpp"
 #include "strandlab/panel/panel.hpp"
+#include "support/strands.hpp"
 
 namespace strandlab::test {
 
@@ -25,20 +26,9 @@ inline Panel<2> reference_panel(const std::string& name) {
 
 // One strand filling x0..x1, y0..y1.
 inline Strand<2> flat_strand(double x0, double x1, double y0, double y1, int along, int through) {
-  Strand<2> strand;
+  auto strand = strand_between<2>(wood::in_strand_axes(osb_kinds()[0].material, 0), Vec<2>(x0, y0), Vec<2>(x1, y1),
+                                  {along, through});
   strand.kind = "surface";
-  strand.material = wood::in_strand_axes(osb_kinds()[0].material, 0);
-  strand.points = {along, through};
-  strand.spacing = {(x1 - x0) / along, (y1 - y0) / through};
-  for (int j = 0; j < through; ++j) {
-    for (int i = 0; i < along; ++i) {
-      strand.x.emplace_back(x0 + (i + 0.5) * strand.spacing[0], y0 + (j + 0.5) * strand.spacing[1]);
-    }
-  }
-  strand.v.assign(strand.x.size(), Vec<2>::Zero());
-  strand.F.assign(strand.x.size(), Tensor<2>::Identity());
-  strand.stress.assign(strand.x.size(), Voigt::Zero());
-  strand.plastic.assign(strand.x.size(), 0.0);
   return strand;
 }
 
@@ -54,8 +44,8 @@ inline Panel<2> panel_of(std::vector<Strand<2>> strands, double length_mm, doubl
 template <class Map, class Gradient>
 void deform(Strand<2>& strand, const Map& map, const Gradient& gradient) {
   for (std::size_t p = 0; p < strand.size(); ++p) {
-    strand.F[p] = gradient(strand.x[p]) * strand.F[p];
-    strand.x[p] = map(strand.x[p]);
+    strand.points.F[p] = gradient(strand.points.x[p]) * strand.points.F[p];
+    strand.points.x[p] = map(strand.points.x[p]);
   }
 }
 

@@ -67,8 +67,8 @@ TEST(Mesh, ScalesStiffnessByTheVolumeLost) {
   auto panel = two_strands();
   const auto before = make_mesh(panel, {true, true}, 3);
   for (auto& strand : panel.strands) {
-    for (auto& x : strand.x) x[1] *= 0.8;
-    for (auto& F : strand.F) F(1, 1) = 0.8;
+    for (auto& x : strand.points.x) x[1] *= 0.8;
+    for (auto& F : strand.points.F) F(1, 1) = 0.8;
   }
   const auto after = make_mesh(panel, {true, true}, 3);
   for (std::size_t e = 0; e < before.stiffness.size(); ++e) {
@@ -79,7 +79,7 @@ TEST(Mesh, ScalesStiffnessByTheVolumeLost) {
 // The grain follows F a0: a strand sheared by tan 0.2 has its grain at 0.2 rad.
 TEST(Mesh, TurnsMaterialAxesWithTheGrain) {
   auto panel = two_strands();
-  for (auto& F : panel.strands[0].F) F(1, 0) = std::tan(0.2);
+  for (auto& F : panel.strands[0].points.F) F(1, 0) = std::tan(0.2);
   const auto mesh = make_mesh(panel, {true, false}, 3);
   const auto expected = in_section(panel.strands[0].material.stiffness, Vec<2>(std::cos(0.2), std::sin(0.2)));
   const auto& e = mesh.elements[40];
@@ -111,7 +111,7 @@ TEST(Mesh, LocatesGluePoints) {
 // match.
 TEST(Springs, DoNotFeelARigidMotion) {
   auto panel = two_strands();
-  for (auto& x : panel.strands[1].x) x[1] += 0.09;
+  for (auto& x : panel.strands[1].points.x) x[1] += 0.09;
   const auto mesh = make_mesh(panel, {true, true}, 3);
   const PanelStiffness stiffness(mesh, make_springs(mesh, glue::cure(panel, {}), end_nodes(mesh)));
   const auto u = sample(mesh, rigid);
@@ -152,7 +152,7 @@ TEST(PanelStiffness, AssemblesWhatItsEnergySays) {
 // faces' slopes do: nothing is locked there.
 TEST(Springs, LetAnEndPlaneTurnAsAWhole) {
   auto panel = two_strands();
-  for (auto& x : panel.strands[1].x) x[1] += 0.05;
+  for (auto& x : panel.strands[1].points.x) x[1] += 0.05;
   const auto mesh = make_mesh(panel, {true, true}, 3);
   const auto springs = make_springs(mesh, glue::cure(panel, {}), end_nodes(mesh));
   const auto& corner = springs.front();
@@ -170,8 +170,8 @@ TEST(Springs, LetAnEndPlaneTurnAsAWhole) {
 TEST(Mesh, StraightensFoldedCorners) {
   auto panel = two_strands();
   auto& strand = panel.strands[0];
-  strand.x[0] += Vec<2>(0.45, 0.3);
-  strand.x[1] += Vec<2>(0.1, 0.2);
+  strand.points.x[0] += Vec<2>(0.45, 0.3);
+  strand.points.x[1] += Vec<2>(0.1, 0.2);
   const auto mesh = make_mesh(panel, {true, true}, 6);
   EXPECT_GT(mesh.straightened, 0);
   const auto reference = make_mesh(two_strands(), {true, true}, 6);
@@ -189,8 +189,8 @@ TEST(Mesh, StraightensFoldedCorners) {
 // A strand turned inside out cannot be meshed.
 TEST(Mesh, SaysWhichStrandIsTooDistorted) {
   auto panel = two_strands();
-  for (auto& x : panel.strands[1].x) x[0] = 20 - x[0];
-  for (auto& F : panel.strands[1].F) F(0, 0) = -1;
+  for (auto& x : panel.strands[1].points.x) x[0] = 20 - x[0];
+  for (auto& F : panel.strands[1].points.F) F(0, 0) = -1;
   try {
     make_mesh(panel, {true, true}, 3);
     FAIL() << "no RunError";

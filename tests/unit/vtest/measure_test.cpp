@@ -103,8 +103,8 @@ TEST(Measure, CutsTheSpecimenAtTheWindow) {
   auto panel = panel_of({{0, 0, 18}, {0, 18.1, 20}, {1, 0, 20}});
   const double stretch = 1.3;  // about the middle: ends at -3 and 23 mm; the short strand from 20.53 mm
   for (auto& strand : panel.strands) {
-    for (auto& x : strand.x) x[0] = 10 + stretch * (x[0] - 10);
-    for (auto& F : strand.F) F(0, 0) = stretch;
+    for (auto& x : strand.points.x) x[0] = 10 + stretch * (x[0] - 10);
+    for (auto& F : strand.points.F) F(0, 0) = stretch;
   }
   const auto cut = measure(panel, options);
   ASSERT_EQ(cut.warnings.size(), 1U);
@@ -220,8 +220,8 @@ TEST(Measure, BendsOnSupportsOnlyWhatIsInOnePiece) {
   options.pad_to_thickness = 0.5;
   panel = stacks;
   for (auto& strand : panel.strands) {  // a window of 40 mm
-    for (auto& x : strand.x) x[0] *= 2;
-    for (auto& F : strand.F) F(0, 0) = 2;
+    for (auto& x : strand.points.x) x[0] *= 2;
+    for (auto& F : strand.points.F) F(0, 0) = 2;
   }
   panel.length_mm = 40;
   EXPECT_NE(message_of([&] { measure(panel, options); }).find("in 2 that no glue connects"), std::string::npos);
@@ -232,10 +232,10 @@ TEST(Measure, BendsOnSupportsOnlyWhatIsInOnePiece) {
 TEST(GapSensitivity, TellsWhatHalfAndTwiceTheGapDo) {
   auto panel = panel_of({{0, 0, 20}, {1, 8, 20}, {2, 8, 20}, {3, 8, 20}});
   panel.strands.erase(panel.strands.begin() + 2, panel.strands.end());
-  for (auto& x : panel.strands[0].x) x[0] *= 0.99;  // does not reach the right end
-  for (auto& F : panel.strands[0].F) F(0, 0) = 0.99;
-  for (auto& x : panel.strands[1].x) x[1] += 0.02 * (x[0] - 8);
-  for (auto& F : panel.strands[1].F) F(1, 0) = 0.02;
+  for (auto& x : panel.strands[0].points.x) x[0] *= 0.99;  // does not reach the right end
+  for (auto& F : panel.strands[0].points.F) F(0, 0) = 0.99;
+  for (auto& x : panel.strands[1].points.x) x[1] += 0.02 * (x[0] - 8);
+  for (auto& F : panel.strands[1].points.F) F(1, 0) = 0.02;
   Options options;
   options.kinds = {Kind::kTension};
   options.compliance_t_mm_per_MPa = {100};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "strandlab/mpm/engine.hpp"
+#include "support/strands.hpp"
 
 namespace strandlab::contact_tests {
 
@@ -25,28 +26,8 @@ inline wood::StrandMaterial elastic_material(double modulus_MPa, double poisson)
 // A rectangular lattice of particles from `low` to `high` with spacing near `spacing`, all faces.
 template <int Dim>
 mpm::Body<Dim> block(const wood::StrandMaterial& material, const Vec<Dim>& low, const Vec<Dim>& high, double spacing) {
-  Strand<Dim> s;
+  auto s = test::strand_between<Dim>(material, low, high, spacing);
   s.kind = "block";
-  s.material = material;
-  std::size_t count = 1;
-  for (int a = 0; a < Dim; ++a) {
-    s.points[a] = static_cast<int>(std::lround((high[a] - low[a]) / spacing));
-    s.spacing[a] = (high[a] - low[a]) / s.points[a];
-    count *= static_cast<std::size_t>(s.points[a]);
-  }
-  for (std::size_t p = 0; p < count; ++p) {
-    Vec<Dim> x;
-    std::size_t rest = p;
-    for (int a = 0; a < Dim; ++a) {
-      x[a] = low[a] + (static_cast<double>(rest % s.points[a]) + 0.5) * s.spacing[a];
-      rest /= s.points[a];
-    }
-    s.x.push_back(x);
-  }
-  s.v.assign(count, Vec<Dim>::Zero());
-  s.F.assign(count, Tensor<Dim>::Identity());
-  s.stress.assign(count, Voigt::Zero());
-  s.plastic.assign(count, 0.0);
   return mpm::body_of(s);
 }
 
@@ -57,18 +38,18 @@ inline mpm::Body<2> disc(const wood::StrandMaterial& material, const Vec<2>& cen
   mpm::Body<2> body;
   body.name = "disc";
   body.material = material;
-  body.spacing = Vec<2>(spacing, spacing);
+  body.lattice.spacing = Vec<2>(spacing, spacing);
   const int n = static_cast<int>(std::ceil(radius / spacing));
   for (int j = -n; j < n; ++j) {
     for (int i = -n; i < n; ++i) {
       const Vec<2> r((i + 0.5) * spacing, (j + 0.5) * spacing);
-      if (r.norm() <= radius) body.x.push_back(centre + r);
+      if (r.norm() <= radius) body.points.x.push_back(centre + r);
     }
   }
-  body.v.assign(body.x.size(), velocity);
-  body.F.assign(body.x.size(), Tensor<2>::Identity());
-  body.stress.assign(body.x.size(), Voigt::Zero());
-  body.plastic.assign(body.x.size(), 0.0);
+  body.points.v.assign(body.points.size(), velocity);
+  body.points.F.assign(body.points.size(), Tensor<2>::Identity());
+  body.points.stress.assign(body.points.size(), Voigt::Zero());
+  body.points.plastic.assign(body.points.size(), 0.0);
   body.faces.resize(4);
   const int points = 4 * static_cast<int>(std::ceil(2 * M_PI * radius / spacing / 4));
   const double step = 2 * M_PI / points;
@@ -76,12 +57,12 @@ inline mpm::Body<2> disc(const wood::StrandMaterial& material, const Vec<2>& cen
     const double angle = -M_PI / 4 + (k + 0.5) * step;
     const Vec<2> normal(std::cos(angle), std::sin(angle)), at = centre + radius * normal;
     std::size_t nearest = 0;
-    for (std::size_t p = 1; p < body.x.size(); ++p) {
-      if ((body.x[p] - at).squaredNorm() < (body.x[nearest] - at).squaredNorm()) nearest = p;
+    for (std::size_t p = 1; p < body.points.size(); ++p) {
+      if ((body.points.x[p] - at).squaredNorm() < (body.points.x[nearest] - at).squaredNorm()) nearest = p;
     }
     auto& face = body.faces[static_cast<std::size_t>(4 * k / points)];
     face.particle.push_back(static_cast<int>(nearest));
-    face.offset.emplace_back(at - body.x[nearest]);
+    face.offset.emplace_back(at - body.points.x[nearest]);
     face.area.emplace_back(radius * step * normal);
   }
   return body;
@@ -89,7 +70,7 @@ inline mpm::Body<2> disc(const wood::StrandMaterial& material, const Vec<2>& cen
 
 template <int Dim>
 double particle_mass(const mpm::Body<Dim>& body) {
-  return body.material.density * body.spacing.prod();
+  return body.material.density * body.lattice.point_volume();
 }
 
 template <int Dim>
@@ -101,7 +82,7 @@ Vec<Dim> mean(const std::vector<Vec<Dim>>& values) {
 
 template <int Dim>
 Vec<Dim> momentum(const mpm::Body<Dim>& body) {
-  return particle_mass(body) * static_cast<double>(body.v.size()) * mean<Dim>(body.v);
+  return particle_mass(body) * static_cast<double>(body.points.size()) * mean<Dim>(body.points.v);
 }
 
 // Mean position of a face along an axis, mm.
@@ -110,7 +91,7 @@ double face_position(const mpm::Body<Dim>& body, std::size_t face, int axis) {
   double sum = 0;
   const auto& f = body.faces[face];
   for (std::size_t i = 0; i < f.particle.size(); ++i) {
-    sum += body.x[f.particle[i]][axis] + (body.F[f.particle[i]] * f.offset[i])[axis];
+    sum += body.points.x[f.particle[i]][axis] + (body.points.F[f.particle[i]] * f.offset[i])[axis];
   }
   return sum / static_cast<double>(f.particle.size());
 }

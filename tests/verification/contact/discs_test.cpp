@@ -44,14 +44,16 @@ class Discs : public testing::TestWithParam<Approach> {
     grid.lo = Vec<2>(-8, -8);
     grid.hi = Vec<2>(8, 8);
     engine_.emplace(bodies_, grid, mpm::Options{});
-    gap0_ = (mean<2>(bodies_[0].x) - mean<2>(bodies_[1].x)).norm();
+    gap0_ = (mean<2>(bodies_[0].points.x) - mean<2>(bodies_[1].points.x)).norm();
   }
 
   // Gap of the circles while the discs are not yet deformed, cells.
-  double gap_cells() const { return ((mean<2>(bodies_[0].x) - mean<2>(bodies_[1].x)).norm() - gap0_) / kCell + 2; }
+  double gap_cells() const {
+    return ((mean<2>(bodies_[0].points.x) - mean<2>(bodies_[1].points.x)).norm() - gap0_) / kCell + 2;
+  }
   double separation_speed() const {  // mm/s, negative while they approach
-    const Vec<2> n = (mean<2>(bodies_[1].x) - mean<2>(bodies_[0].x)).normalized();
-    return (mean<2>(bodies_[1].v) - mean<2>(bodies_[0].v)).dot(n);
+    const Vec<2> n = (mean<2>(bodies_[1].points.x) - mean<2>(bodies_[0].points.x)).normalized();
+    return (mean<2>(bodies_[1].points.v) - mean<2>(bodies_[0].points.v)).dot(n);
   }
   void step() {
     engine_->step();

@@ -29,7 +29,7 @@ std::vector<mpm::Body<2>> about_to_meet(double gap) {
       block<2>(material, Vec<2>(0, -4 * kCell), Vec<2>(8 * kCell, 0), kCell / 2),
       block<2>(material, Vec<2>(0, gap * kCell), Vec<2>(8 * kCell, (4 + gap) * kCell), kCell / 2)};
   const double dt = mpm::Engine<2>(bodies, open_grid(), {}).state().time_step_s;
-  for (auto& v : bodies[1].v) v[1] = -(gap + 0.05) * kCell / dt;
+  for (auto& v : bodies[1].points.v) v[1] = -(gap + 0.05) * kCell / dt;
   return bodies;
 }
 
@@ -58,10 +58,10 @@ TEST(Faces, OfABlockOnEdgeMeetTheFaceBelow) {
   Tensor<2> turn;
   turn << std::sqrt(0.5), -std::sqrt(0.5), std::sqrt(0.5), std::sqrt(0.5);
   const Vec<2> centre(0, std::sqrt(2.0) + 0.5 * kCell);
-  for (std::size_t p = 0; p < falling.x.size(); ++p) {
-    falling.x[p] = centre + turn * falling.x[p];
-    falling.F[p] = turn;
-    falling.v[p] = Vec<2>(0, -10000);
+  for (std::size_t p = 0; p < falling.points.x.size(); ++p) {
+    falling.points.x[p] = centre + turn * falling.points.x[p];
+    falling.points.F[p] = turn;
+    falling.points.v[p] = Vec<2>(0, -10000);
   }
   std::vector<mpm::Body<2>> bodies{base, falling};
   mpm::Grid<2> grid = open_grid(0.3);
@@ -72,13 +72,13 @@ TEST(Faces, OfABlockOnEdgeMeetTheFaceBelow) {
     engine.step();
     engine.write(bodies);
     double tip = 1e300, below_it = -1e300;
-    for (const auto& x : bodies[1].x) tip = std::min(tip, x[1]);
-    for (const auto& x : bodies[0].x) {
+    for (const auto& x : bodies[1].points.x) tip = std::min(tip, x[1]);
+    for (const auto& x : bodies[0].points.x) {
       if (std::abs(x[0]) < kCell) below_it = std::max(below_it, x[1]);
     }
     lowest = std::min(lowest, (tip - below_it) / kCell);
   }
-  const double speed = mean<2>(bodies[1].v)[1];
+  const double speed = mean<2>(bodies[1].points.v)[1];
   // The outermost particles are a quarter cell below a face and .35 cell above the edge when these touch.
   report("block on edge: least distance of its lowest particle from those of the face below", lowest, above(0.1),
          "cells");

@@ -52,14 +52,14 @@ class Incline {
     low[normal_] = 1;
     high[normal_] = 2;
     auto on_top = block<Dim>(material, low, high, kCell / 2);
-    for (std::size_t p = 0; p < base.x.size(); ++p) {
-      bool under = base.x[p][normal_] > 1 - kCell / 2;
+    for (std::size_t p = 0; p < base.points.size(); ++p) {
+      bool under = base.points.x[p][normal_] > 1 - kCell / 2;
       for (int a = 0; a < Dim; ++a)
-        under = under && (a == normal_ || (base.x[p][a] > low[a] && base.x[p][a] < high[a]));
+        under = under && (a == normal_ || (base.points.x[p][a] > low[a] && base.points.x[p][a] < high[a]));
       if (under) under_block_.push_back(p);
     }
-    for (std::size_t p = 0; p < on_top.x.size(); ++p) {
-      if (on_top.x[p][normal_] < 1 + kCell / 2) sole_.push_back(p);
+    for (std::size_t p = 0; p < on_top.points.size(); ++p) {
+      if (on_top.points.x[p][normal_] < 1 + kCell / 2) sole_.push_back(p);
     }
     bodies_ = {base, on_top};
     if (slope.swapped) std::swap(bodies_[0], bodies_[1]);
@@ -92,11 +92,11 @@ class Incline {
   }
   double time() const { return engine_->state().time_s; }
   double friction_work() const { return engine_->energies().friction; }
-  double speed() const { return mean<Dim>(moving().v).dot(slide_); }  // of the block, down the slope
+  double speed() const { return mean<Dim>(moving().points.v).dot(slide_); }  // of the block, down the slope
   // Place of the block's sole against that of the base where the block stood at first, down the slope, mm.
   double place() const { return along(moving(), sole_) - along(resting(), under_block_); }
   double weight() const {  // square to the slope, N
-    return particle_mass(moving()) * static_cast<double>(moving().x.size()) * normal_gravity_;
+    return particle_mass(moving()) * static_cast<double>(moving().points.size()) * normal_gravity_;
   }
   double normal_gravity() const { return normal_gravity_; }
   double slope_gravity() const { return slope_gravity_; }
@@ -106,7 +106,7 @@ class Incline {
   const mpm::Body<Dim>& resting() const { return bodies_[static_cast<std::size_t>(1 - block_)]; }
   double along(const mpm::Body<Dim>& body, const std::vector<std::size_t>& particles) const {
     double sum = 0;
-    for (std::size_t p : particles) sum += body.x[p].dot(slide_);
+    for (std::size_t p : particles) sum += body.points.x[p].dot(slide_);
     return sum / static_cast<double>(particles.size());
   }
 

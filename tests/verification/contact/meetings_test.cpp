@@ -23,7 +23,7 @@ std::vector<mpm::Body<2>> press_three_rows(const std::vector<std::size_t>& order
     for (int half = 0; half < 2; ++half) {
       made.push_back(
           block<2>(material, Vec<2>(half * 2.0, row * kCell), Vec<2>(half * 2.0 + 2.0, (row + 1) * kCell), kCell / 4));
-      for (auto& v : made.back().v) v = Vec<2>((1 - half) * 2000.0 + 300.0 * row, 100.0 * half);
+      for (auto& v : made.back().points.v) v = Vec<2>((1 - half) * 2000.0 + 300.0 * row, 100.0 * half);
     }
   }
   std::vector<mpm::Body<2>> shuffled;
@@ -48,16 +48,16 @@ TEST(Meetings, ThreeRowsWithTwoEndsEachDoNotDependOnBodyOrder) {
   const auto reference = press_three_rows({0, 1, 2, 3, 4, 5});
   double moved = 0, worst = 0;
   for (const auto& body : reference) {
-    for (const auto& v : body.v) moved = std::max(moved, v.norm());
+    for (const auto& v : body.points.v) moved = std::max(moved, v.norm());
   }
   for (const auto& order :
        std::vector<std::vector<std::size_t>>{{5, 4, 3, 2, 1, 0}, {2, 0, 5, 3, 1, 4}, {1, 0, 3, 2, 5, 4}}) {
     const auto other = press_three_rows(order);
     double dx = 0, dv = 0;
     for (std::size_t b = 0; b < reference.size(); ++b) {
-      for (std::size_t p = 0; p < reference[b].x.size(); ++p) {
-        dx = std::max(dx, (other[b].x[p] - reference[b].x[p]).norm() / kCell);
-        dv = std::max(dv, (other[b].v[p] - reference[b].v[p]).norm() / moved);
+      for (std::size_t p = 0; p < reference[b].points.size(); ++p) {
+        dx = std::max(dx, (other[b].points.x[p] - reference[b].points.x[p]).norm() / kCell);
+        dv = std::max(dv, (other[b].points.v[p] - reference[b].points.v[p]).norm() / moved);
       }
     }
     worst = std::max(worst, dx);

@@ -48,8 +48,9 @@ Vibration vibrate(int cells, Ends ends) {
   Bar bar(cells, {side, side});
   auto& body = bar.bodies[0];
   const double c = wave_speed(body.material);
-  const auto start = body.x;
-  for (std::size_t p = 0; p < body.x.size(); ++p) body.v[p][0] = kStrain * c * shape(ends, body.x[p][0]);
+  const auto start = body.points.x;
+  for (std::size_t p = 0; p < body.points.size(); ++p)
+    body.points.v[p][0] = kStrain * c * shape(ends, body.points.x[p][0]);
   Engine<2> engine(bar.bodies, bar.grid, {});
   const double exact = 2 * kLength / c;
   const auto total = [&] {
@@ -59,7 +60,7 @@ Vibration vibrate(int cells, Ends ends) {
   const auto amplitude = [&] {
     engine.write(bar.bodies);
     double sum = 0;
-    for (std::size_t p = 0; p < start.size(); ++p) sum += body.v[p][0] * shape(ends, start[p][0]);
+    for (std::size_t p = 0; p < start.size(); ++p) sum += body.points.v[p][0] * shape(ends, start[p][0]);
     return sum;
   };
   Vibration result;
@@ -116,14 +117,14 @@ TEST(Bar, WaveTransit) {
   Bar bar(kCells, {Side::kRoller, Side::kFree});
   auto& body = bar.bodies[0];
   const double c = wave_speed(body.material), speed = kStrain * c;
-  for (auto& v : body.v) v[0] = -speed;
+  for (auto& v : body.points.v) v[0] = -speed;
   Engine<2> engine(bar.bodies, bar.grid, {});
   const std::size_t end = 2 * kCells - 1;
   double before = -speed, arrival = 0;
   while (arrival == 0 && engine.state().time_s < 2 * kLength / c) {
     engine.step();
     engine.write(bar.bodies);
-    const double now = body.v[end][0], dt = engine.state().time_step_s;
+    const double now = body.points.v[end][0], dt = engine.state().time_step_s;
     if (now >= -speed / 3) arrival = engine.state().time_s - dt * (now + speed / 3) / (now - before);
     before = now;
   }

@@ -28,14 +28,14 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
 
 Line middle_line(const Strand<2>& s) {
   std::vector<double> x, y, angle;
-  const int nx = s.points[0], ny = s.points[1];
+  const auto [nx, ny] = s.lattice.counts;
   for (int i = 0; i < nx; ++i) {
     double sx = 0, sy = 0, sa = 0;
     for (int j = 0; j < ny; ++j) {
-      const auto p = static_cast<std::size_t>(i + nx * j);
-      sx += s.x[p][0] / ny;
-      sy += s.x[p][1] / ny;
-      const Vec<2> g = grain<2>(s.F[p]);
+      const auto p = s.lattice.point({i, j});
+      sx += s.points.x[p][0] / ny;
+      sy += s.points.x[p][1] / ny;
+      const Vec<2> g = grain<2>(s.points.F[p]);
       sa += std::atan2(g[1], g[0]) / ny;
     }
     x.push_back(sx);

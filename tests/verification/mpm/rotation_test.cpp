@@ -25,9 +25,9 @@ Voigt some_stress(bool in_section) {
 // Carries a pre-stressed block through 360 steps of one degree about its centre and returns the bodies.
 template <int Dim>
 std::vector<Body<Dim>> turn_once(Body<Dim> body, const Tensor<Dim>& spin) {
-  for (auto& s : body.stress) s = some_stress(Dim == 2);
+  for (auto& s : body.points.stress) s = some_stress(Dim == 2);
   Vec<Dim> centre = Vec<Dim>::Zero();
-  for (const auto& x : body.x) centre += x / static_cast<double>(body.x.size());
+  for (const auto& x : body.points.x) centre += x / static_cast<double>(body.points.size());
   std::vector<Body<Dim>> bodies{body};
   Engine<Dim> engine(bodies, open_grid<Dim>(1, -12, 20), {});
   const double dt = engine.state().time_step_s;
@@ -45,10 +45,10 @@ template <int Dim>
 void expect_unstrained(const std::string& what, const Body<Dim>& body) {
   const Voigt before = some_stress(Dim == 2);
   double stress = 0, volume = 0;
-  for (std::size_t p = 0; p < body.x.size(); ++p) {
-    stress = std::max(stress, (body.stress[p] - before).norm() / before.norm());
-    volume = std::max(volume, std::abs(body.F[p].determinant() - 1));
-    ASSERT_LT((body.F[p] - Tensor<Dim>::Identity()).norm(), 1e-3);
+  for (std::size_t p = 0; p < body.points.x.size(); ++p) {
+    stress = std::max(stress, (body.points.stress[p] - before).norm() / before.norm());
+    volume = std::max(volume, std::abs(body.points.F[p].determinant() - 1));
+    ASSERT_LT((body.points.F[p] - Tensor<Dim>::Identity()).norm(), 1e-3);
   }
   report(what + ": relative change of stress in strand axes", stress, below(1e-11).because(test::kRoundOff));
   report(what + ": change of volume", volume, near(360 * std::pow(kDegree, 4) / 4, 3e-10));
@@ -84,15 +84,15 @@ struct Spin {
 template <int Dim>
 double angular_momentum(const Body<Dim>& body) {  // about the centre of mass, in the plane (along, thickness), over m
   Vec<Dim> centre = Vec<Dim>::Zero(), drift = Vec<Dim>::Zero();
-  const auto n = static_cast<double>(body.x.size());
-  for (std::size_t p = 0; p < body.x.size(); ++p) {
-    centre += body.x[p] / n;
-    drift += body.v[p] / n;
+  const auto n = static_cast<double>(body.points.size());
+  for (std::size_t p = 0; p < body.points.size(); ++p) {
+    centre += body.points.x[p] / n;
+    drift += body.points.v[p] / n;
   }
   double sum = 0;
   constexpr int y = Dim - 1;
-  for (std::size_t p = 0; p < body.x.size(); ++p) {
-    const Vec<Dim> x = body.x[p] - centre, v = body.v[p] - drift;
+  for (std::size_t p = 0; p < body.points.size(); ++p) {
+    const Vec<Dim> x = body.points.x[p] - centre, v = body.points.v[p] - drift;
     sum += x[0] * v[y] - x[y] * v[0];
   }
   return sum;
@@ -113,11 +113,11 @@ Spin spin_freely(double cell) {
   const double sound = std::sqrt(body.material.stiffness(0, 0) / body.material.density);
   const double tip = 0.01 * sound, omega = tip / std::hypot(4, 2);
   Vec<Dim> flight = Vec<Dim>::Constant(0.2 * tip);
-  for (std::size_t p = 0; p < body.x.size(); ++p) {
-    const Vec<Dim> r = body.x[p] - centre;
-    body.v[p] = flight;
-    body.v[p][0] -= omega * r[y];
-    body.v[p][y] += omega * r[0];
+  for (std::size_t p = 0; p < body.points.size(); ++p) {
+    const Vec<Dim> r = body.points.x[p] - centre;
+    body.points.v[p] = flight;
+    body.points.v[p][0] -= omega * r[y];
+    body.points.v[p][y] += omega * r[0];
   }
   std::vector<Body<Dim>> bodies{body};
   Engine<Dim> engine(bodies, open_grid<Dim>(cell, -8, 16), {});
@@ -164,20 +164,20 @@ Body<Dim> swing(const Tensor<Dim>& turn) {
   spacing[y] = 0.3;
   Body<Dim> body = block<Dim>(elastic_poplar(30), points, spacing, Vec<Dim>::Constant(0.13));
   const double sound = std::sqrt(body.material.stiffness(0, 0) / body.material.density);
-  for (std::size_t p = 0; p < body.x.size(); ++p) {
-    const Vec<Dim> x = body.x[p];
+  for (std::size_t p = 0; p < body.points.size(); ++p) {
+    const Vec<Dim> x = body.points.x[p];
     Vec<Dim> v = Vec<Dim>::Constant(0.01 * sound);
     v[0] += 0.02 * sound * std::sin(1.3 * x[0] + x[y]);
     v[y] += 0.01 * sound * std::cos(0.7 * x[0]);
-    body.x[p] = turn * x;
-    body.v[p] = turn * v;
-    body.F[p] = turn;
+    body.points.x[p] = turn * x;
+    body.points.v[p] = turn * v;
+    body.points.F[p] = turn;
   }
   std::vector<Body<Dim>> bodies{body};
   Engine<Dim> engine(bodies, open_grid<Dim>(1, -20, 20), {});
   for (int k = 0; k < 300; ++k) engine.step();
   engine.write(bodies);
-  for (auto& x : bodies[0].x) x = turn.transpose() * x;
+  for (auto& x : bodies[0].points.x) x = turn.transpose() * x;
   return bodies[0];
 }
 
@@ -192,10 +192,10 @@ void expect_turned(int with) {
   turn(y, with) = 1;
   const auto lying = swing<Dim>(Tensor<Dim>::Identity()), turned = swing<Dim>(turn);
   double worst = 0, stress = 0, largest = 0;
-  for (std::size_t p = 0; p < lying.x.size(); ++p) {
-    worst = std::max(worst, (turned.x[p] - lying.x[p]).norm());
-    stress = std::max(stress, (turned.stress[p] - lying.stress[p]).norm());
-    largest = std::max(largest, lying.stress[p].norm());
+  for (std::size_t p = 0; p < lying.points.size(); ++p) {
+    worst = std::max(worst, (turned.points.x[p] - lying.points.x[p]).norm());
+    stress = std::max(stress, (turned.points.stress[p] - lying.points.stress[p]).norm());
+    largest = std::max(largest, lying.points.stress[p].norm());
   }
   EXPECT_GT(largest, 10) << "MPa";
   report(fmt::format("block turned by a quarter beforehand, {}D, axis {}: difference of stress", Dim, with),
@@ -237,10 +237,10 @@ Voigt shear_cycle(const wood::StrandMaterial& material, int i, int j, const std:
     engine.write(bodies);
   };
   go_to(std::tan(20 * kDegree), 200);
-  peak(bodies[0].stress[3]);
+  peak(bodies[0].points.stress[3]);
   go_to(-std::tan(20 * kDegree), 400);
   go_to(0, 200);
-  return bodies[0].stress[3];
+  return bodies[0].points.stress[3];
 }
 
 // Stress after the cycle against its peak, for every shear of the grid's axes and a grain along and across the shear.

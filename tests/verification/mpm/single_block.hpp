@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "strandlab/mpm/engine.hpp"
+#include "support/strands.hpp"
 
 namespace strandlab::mpm {
 
@@ -30,26 +31,8 @@ inline wood::StrandMaterial elastic_poplar(double angle_deg) {
 template <int Dim>
 Body<Dim> block(const wood::StrandMaterial& material, const std::array<int, Dim>& points, const Vec<Dim>& spacing,
                 const Vec<Dim>& corner) {
-  Strand<Dim> s;
+  auto s = test::strand_from<Dim>(material, corner, spacing, points);
   s.kind = "test";
-  s.material = material;
-  s.points = points;
-  s.spacing = spacing;
-  int count = 1;
-  for (int n : points) count *= n;
-  for (int p = 0; p < count; ++p) {
-    Vec<Dim> x;
-    int rest = p;
-    for (int a = 0; a < Dim; ++a) {
-      x[a] = corner[a] + (rest % points[a] + 0.5) * spacing[a];
-      rest /= points[a];
-    }
-    s.x.push_back(x);
-  }
-  s.v.assign(s.x.size(), Vec<Dim>::Zero());
-  s.F.assign(s.x.size(), Tensor<Dim>::Identity());
-  s.stress.assign(s.x.size(), Voigt::Zero());
-  s.plastic.assign(s.x.size(), 0.0);
   return body_of(s);
 }
 

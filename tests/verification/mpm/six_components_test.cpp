@@ -22,7 +22,7 @@ wood::StrandMaterial poplar(wood::Law law, double angle_deg, bool densified = fa
 // A block strained uniformly by `steps` steps of the velocity gradient L at 1 s each.
 Body<2> strained(const wood::StrandMaterial& material, const Tensor<2>& L, int steps) {
   std::vector<Body<2>> bodies{block<2>(material, {8, 8}, {kCell / 2, kCell / 2}, Vec<2>::Zero())};
-  bodies[0].plastic.assign(bodies[0].x.size(), material.crushing.start);
+  bodies[0].points.plastic.assign(bodies[0].points.size(), material.crushing.start);
   Engine<2> engine(bodies, open_grid<2>(kCell, -4, 8), {});
   for (int i = 0; i < steps; ++i) engine.impose(1, [&](const Vec<2>& x) { return Vec<2>(L * x); });
   engine.write(bodies);
@@ -42,7 +42,7 @@ TEST(OffAxisStrand, FeelsTheFullStiffness) {
     strain << L(0, 0), 0, L(1, 1), 0, L(0, 1) + L(1, 0), 0;
     const Voigt expected = material.stiffness * strain;
     EXPECT_GT(std::abs(expected[5]), 0.1 * std::abs(expected[0])) << "no shear across to speak of";
-    for (const auto& stress : body.stress) {
+    for (const auto& stress : body.points.stress) {
       worst = std::max(worst, (stress - expected).norm() / expected.norm());
     }
   }
@@ -72,11 +72,11 @@ double difference(const wood::StrandMaterial& material, double a, int steps) {
   follow<Law, N>(material, a, steps, tau, history);
   EXPECT_GT(history, material.crushing.start);
   for (int k = 0; k < N; ++k) size = std::max(size, std::abs(tau[k]));
-  for (std::size_t p = 0; p < body.x.size(); ++p) {
+  for (std::size_t p = 0; p < body.points.size(); ++p) {
     for (int k = 0; k < N; ++k) {
-      worst = std::max(worst, std::abs(body.stress[p][wood::kModeToVoigt[k]] - tau[k]) / size);
+      worst = std::max(worst, std::abs(body.points.stress[p][wood::kModeToVoigt[k]] - tau[k]) / size);
     }
-    EXPECT_NEAR(body.plastic[p], history, 1e-9);
+    EXPECT_NEAR(body.points.plastic[p], history, 1e-9);
   }
   return worst;
 }

@@ -24,8 +24,9 @@ std::vector<Body<2>> two_blocks() {
 Spring<2> between_centres(const std::vector<Body<2>>& bodies, const Vec<2>& normal, double stiffness_t,
                           double stiffness_n) {
   const auto centre = [&](int b) {
-    const auto& n = bodies[b].points;
-    return Spring<2>::End{b, n[0] / 2 + n[0] * (n[1] / 2), -0.5 * bodies[b].spacing};
+    const auto& lattice = bodies[b].lattice;
+    const auto middle = lattice.point({lattice.counts[0] / 2, lattice.counts[1] / 2});
+    return Spring<2>::End{b, static_cast<int>(middle), -0.5 * lattice.spacing};
   };
   return {centre(0), centre(1), normal, 2.0, stiffness_t, stiffness_n};
 }
@@ -38,7 +39,7 @@ struct Motion {
 // The first block starts at velocity v; half periods end where the blocks' relative velocity along v passes zero.
 Motion oscillate(const Vec<2>& v, const Vec<2>& normal, double stiffness_t, double stiffness_n) {
   auto bodies = two_blocks();
-  std::fill(bodies[0].v.begin(), bodies[0].v.end(), v);
+  std::fill(bodies[0].points.v.begin(), bodies[0].points.v.end(), v);
   Engine<2> engine(bodies, open_grid<2>(0.5, -4, 12), {});
   engine.set_springs({between_centres(bodies, normal, stiffness_t, stiffness_n)});
   const Vec<2> start = engine.momentum();
@@ -46,7 +47,7 @@ Motion oscillate(const Vec<2>& v, const Vec<2>& normal, double stiffness_t, doub
     engine.write(bodies);
     Vec<2> mean[2] = {Vec<2>::Zero(), Vec<2>::Zero()};
     for (int b = 0; b < 2; ++b) {
-      for (const auto& u : bodies[b].v) mean[b] += u / static_cast<double>(bodies[b].v.size());
+      for (const auto& u : bodies[b].points.v) mean[b] += u / static_cast<double>(bodies[b].points.size());
     }
     return (mean[0] - mean[1]).dot(v);
   };
@@ -86,7 +87,7 @@ TEST(Spring, SwingsTwoBlocksAtThePeriodOfTwoMasses) {
 TEST(Spring, HoldsTheEnergyOfRelativeMotionAtTheTurn) {
   auto bodies = two_blocks();
   const double mass = 4 * kDensity * kTonnePerMm3, v = 1000;
-  std::fill(bodies[0].v.begin(), bodies[0].v.end(), Vec<2>(v, 0));
+  std::fill(bodies[0].points.v.begin(), bodies[0].points.v.end(), Vec<2>(v, 0));
   Engine<2> engine(bodies, open_grid<2>(0.5, -4, 12), {});
   engine.set_springs({between_centres(bodies, {1, 0}, 0, kE / 6000)});
   double largest = 0;

@@ -25,7 +25,7 @@ double mean_x(const Body<2>& body, int face) {
   const auto& f = body.faces[face];
   double sum = 0;
   for (std::size_t i = 0; i < f.particle.size(); ++i) {
-    sum += (body.x[f.particle[i]] + body.F[f.particle[i]] * f.offset[i])[0];
+    sum += (body.points.x[f.particle[i]] + body.points.F[f.particle[i]] * f.offset[i])[0];
   }
   return sum / static_cast<double>(f.particle.size());
 }

@@ -76,11 +76,10 @@ void expect_same(const Panel<2>& a, const Panel<2>& b) {
   EXPECT_EQ(a.time_s, b.time_s);
   EXPECT_EQ(a.top_mm, b.top_mm);
   for (std::size_t s = 0; s < a.strands.size(); ++s) {
-    EXPECT_THAT(a.strands[s].x, SameBits(b.strands[s].x)) << "positions of strand " << s;
-    EXPECT_THAT(a.strands[s].v, SameBits(b.strands[s].v)) << "velocities of strand " << s;
-    EXPECT_THAT(a.strands[s].F, SameBits(b.strands[s].F)) << "deformation gradients of strand " << s;
-    EXPECT_THAT(a.strands[s].stress, SameBits(b.strands[s].stress)) << "stresses of strand " << s;
-    EXPECT_THAT(a.strands[s].plastic, SameBits(b.strands[s].plastic)) << "plastic strain of strand " << s;
+    for_each_field<2>([&](const auto& field) {
+      EXPECT_THAT(a.strands[s].points.*field.values, SameBits(b.strands[s].points.*field.values))
+          << field.name << " of strand " << s;
+    });
   }
 }
 
@@ -148,10 +147,10 @@ void expect_goes_on(const Panel<2>& panel) {
   engine.write(bodies);
   stopped.write(copy);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    EXPECT_THAT(bodies[b].x, SameBits(copy[b].x)) << bodies[b].name;
-    EXPECT_THAT(bodies[b].v, SameBits(copy[b].v)) << bodies[b].name;
-    EXPECT_THAT(bodies[b].stress, SameBits(copy[b].stress)) << bodies[b].name;
-    EXPECT_THAT(bodies[b].plastic, SameBits(copy[b].plastic)) << bodies[b].name;
+    for_each_field<2>([&](const auto& field) {
+      EXPECT_THAT(bodies[b].points.*field.values, SameBits(copy[b].points.*field.values))
+          << field.name << " of " << bodies[b].name;
+    });
   }
   EXPECT_EQ(engine.energies().friction, stopped.energies().friction);
   EXPECT_GT(engine.energies().plastic, 0);
@@ -184,7 +183,7 @@ TEST(Press, PlasticWorkIsPositive) {
   const auto& snapshots = reference().snapshots;
   for (std::size_t k = 1; k < snapshots.size(); ++k) {
     for (std::size_t s = 0; s < snapshots[k].strands.size(); ++s) {
-      const auto &now = snapshots[k].strands[s].plastic, &then = snapshots[k - 1].strands[s].plastic;
+      const auto &now = snapshots[k].strands[s].points.plastic, &then = snapshots[k - 1].strands[s].points.plastic;
       for (std::size_t p = 0; p < now.size(); ++p) ASSERT_GE(now[p], then[p]);
     }
   }
@@ -194,7 +193,7 @@ TEST(Press, PlasticWorkIsPositive) {
 TEST(Press, MassIsThatOfTheStrands) {
   const auto panel = small_mat();
   double area = 0;
-  for (const auto& s : panel.strands) area += s.points[0] * s.spacing[0] * s.points[1] * s.spacing[1];
+  for (const auto& s : panel.strands) area += s.lattice.extent(0) * s.lattice.extent(1);
   const double expected = 350e-12 * area;
   std::vector<mpm::Body<2>> bodies;
   for (const auto& s : reference().snapshots.back().strands) bodies.push_back(mpm::body_of(s));

@@ -69,7 +69,7 @@ void expect_one_program(const std::string& what, const Panel<2>& panel, double c
     double moved = 0, stress = 0, largest = 0;
     for (std::size_t s = 0; s < panel.strands.size(); ++s) {
       const auto &a = other.panel.strands[s], &b = reference.panel.strands[s];
-      for (std::size_t p = 0; p < a.size(); ++p) moved = std::max(moved, (a.x[p] - b.x[p]).norm());
+      for (std::size_t p = 0; p < a.size(); ++p) moved = std::max(moved, (a.points.x[p] - b.points.x[p]).norm());
     }
     for (std::size_t i = 0; i < reference.records.size(); ++i) {
       stress = std::max(stress, std::abs(other.records[i].stress_MPa - reference.records[i].stress_MPa));

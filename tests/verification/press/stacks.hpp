@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "strandlab/press/press.hpp"
+#include "support/strands.hpp"
 
 namespace strandlab::press_tests {
 
@@ -22,30 +23,10 @@ inline wood::Material poplar(bool yields) {
 template <int Dim>
 Strand<Dim> strand(const wood::Material& material, double angle_deg, int row, const Vec<Dim>& low, const Vec<Dim>& high,
                    const std::array<int, Dim>& points) {
-  Strand<Dim> s;
+  auto s = test::strand_between<Dim>(wood::in_strand_axes(material, angle_deg), low, high, points);
   s.kind = angle_deg == 0 ? "surface" : "core";
   s.row = row;
   s.angle_deg = angle_deg;
-  s.material = wood::in_strand_axes(material, angle_deg);
-  s.points = points;
-  std::size_t count = 1;
-  for (int a = 0; a < Dim; ++a) {
-    s.spacing[a] = (high[a] - low[a]) / points[a];
-    count *= static_cast<std::size_t>(points[a]);
-  }
-  for (std::size_t p = 0; p < count; ++p) {
-    Vec<Dim> x;
-    std::size_t rest = p;
-    for (int a = 0; a < Dim; ++a) {
-      x[a] = low[a] + (static_cast<double>(rest % points[a]) + 0.5) * s.spacing[a];
-      rest /= points[a];
-    }
-    s.x.push_back(x);
-  }
-  s.v.assign(count, Vec<Dim>::Zero());
-  s.F.assign(count, Tensor<Dim>::Identity());
-  s.stress.assign(count, Voigt::Zero());
-  s.plastic.assign(count, s.material.crushing.start);
   return s;
 }
 

@@ -142,7 +142,7 @@ TEST(Softening, SoftenedRowsAreCompactedMore) {
     sink.snapshot = [&](const Panel<2>& state, int) {
       const auto& s = state.strands[0];
       double sum = 0;
-      for (const auto& F : s.F) sum += F(1, 1);
+      for (const auto& F : s.points.F) sum += F(1, 1);
       first = sum / static_cast<double>(s.size());
     };
     run(stack({{"normal", 0.8}, {"dense", 1.2}}, kinds_of), 0.2, sink);

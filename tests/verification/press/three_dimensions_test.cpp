@@ -92,11 +92,11 @@ TEST(ThreeDimensions, ExtrudedMatMovesAsItsSection) {
   for (std::size_t b = 0; b < section.bodies.size(); ++b) {
     const auto& s = section.bodies[b];
     const auto& p = prism.bodies[b];
-    for (std::size_t i = 0; i < p.x.size(); ++i) {
+    for (std::size_t i = 0; i < p.points.size(); ++i) {
       const std::size_t column = i % 8, layer = i / (8 * kPointsAcross), j = i / 8 % kPointsAcross;
-      const auto& x = s.x[column + 8 * layer];
-      worst = std::max(worst, std::hypot(p.x[i][0] - x[0], p.x[i][2] - x[1]));
-      across = std::max(across, std::abs(p.x[i][1] - (static_cast<double>(j) + 0.5) * p.spacing[1]));
+      const auto& x = s.points.x[column + 8 * layer];
+      worst = std::max(worst, std::hypot(p.points.x[i][0] - x[0], p.points.x[i][2] - x[1]));
+      across = std::max(across, std::abs(p.points.x[i][1] - (static_cast<double>(j) + 0.5) * p.lattice.spacing[1]));
       moved = std::max(moved, std::abs(x[1] - (pieces()[b].row * 0.8 + (static_cast<double>(layer) + 0.5) * 0.8 / 6)));
     }
   }
@@ -186,7 +186,7 @@ TEST_F(CrossedStrands, KeepTheirMomentumAndDoNotInterpenetrate) {
   double sum = 0, worst = 0;
   int count = 0;
   const auto point = [](const mpm::Body<3>& b, const mpm::Face<3>& f, std::size_t i) -> Vec<3> {
-    return b.x[f.particle[i]] + b.F[f.particle[i]] * f.offset[i];
+    return b.points.x[f.particle[i]] + b.points.F[f.particle[i]] * f.offset[i];
   };
   const auto &top = bodies_[0].faces[1], &bottom = bodies_[1].faces[0];
   for (std::size_t i = 0; i < bottom.particle.size(); ++i) {

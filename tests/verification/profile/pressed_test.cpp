@@ -33,10 +33,11 @@ double mass_below(const Panel<2>& panel, double height_mm) {
       for (int i = 0; i < kGrains; ++i) {
         for (int j = 0; j < kGrains; ++j) {
           const Vec<2> at((i + 0.5) / kGrains - 0.5, (j + 0.5) / kGrains - 0.5);
-          below += (s.x[p] + s.F[p] * at.cwiseProduct(s.spacing))[1] - panel.bottom_mm < height_mm;
+          below +=
+              (s.points.x[p] + s.points.F[p] * at.cwiseProduct(s.lattice.spacing))[1] - panel.bottom_mm < height_mm;
         }
       }
-      mass += 350 * s.point_volume() * below / (kGrains * kGrains);
+      mass += 350 * s.lattice.point_volume() * below / (kGrains * kGrains);
     }
   }
   return mass;
@@ -47,7 +48,7 @@ TEST(PressedProfile, HasTheMassThatLiesBelowEveryHeight) {
   job.compactions = {0, 0.2, 0.4};
   const auto mat = panel_of(osb(job, 1), job);
   double mass = 0;  // from the mat's strands, kg/m^3 mm^2
-  for (const auto& s : mat.strands) mass += 350 * s.points[0] * s.points[1] * s.point_volume();
+  for (const auto& s : mat.strands) mass += 350 * static_cast<double>(s.size()) * s.lattice.point_volume();
   double worst = 0;
   for (const auto& panel : pressed(mat, job)) {
     for (const int bins : {16, 25}) {

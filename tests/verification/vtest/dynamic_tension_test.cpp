@@ -32,11 +32,11 @@ std::vector<mpm::Body<2>> stretched_bodies(const Panel<2>& panel) {
   for (const auto& strand : panel.strands) {
     auto body = mpm::body_of(strand);
     const Voigt stress = strand.material.stiffness.col(0) * kStrain;
-    for (std::size_t p = 0; p < body.x.size(); ++p) {
-      body.x[p][0] *= 1 + kStrain;
-      body.x[p][1] += strand.row * kApart;
-      body.F[p](0, 0) *= 1 + kStrain;
-      body.stress[p] = stress;
+    for (std::size_t p = 0; p < body.points.size(); ++p) {
+      body.points.x[p][0] *= 1 + kStrain;
+      body.points.x[p][1] += strand.row * kApart;
+      body.points.F[p](0, 0) *= 1 + kStrain;
+      body.points.stress[p] = stress;
     }
     bodies.push_back(std::move(body));
   }
@@ -57,9 +57,10 @@ mpm::Grid<2> grid_for(const Panel<2>& panel) {
 mpm::Spring<2>::End end_of(const Panel<2>& panel, const glue::FacePoint<2>& point) {
   const auto& strand = panel.strands[point.strand];
   const bool top = point.side == glue::Side::kTop;
-  const int row = top ? strand.points[1] - 1 : 0;
-  return {point.strand, point.segment + strand.points[0] * row,
-          Vec<2>((point.xi - 0.5) * strand.spacing[0], (top ? 0.5 : -0.5) * strand.spacing[1])};
+  const auto& lattice = strand.lattice;
+  const auto particle = lattice.point({point.segment, top ? lattice.counts[1] - 1 : 0});
+  return {point.strand, static_cast<int>(particle),
+          Vec<2>((point.xi - 0.5) * lattice.spacing[0], (top ? 0.5 : -0.5) * lattice.spacing[1])};
 }
 
 std::vector<mpm::Spring<2>> springs_of(const Panel<2>& panel, double compliance_t) {

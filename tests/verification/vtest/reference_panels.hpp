@@ -29,8 +29,8 @@ inline Panel<2> panel_of(const mat::Mat& mat, double spacing_along_mm = 0.8 / 6)
 inline Panel<2> flattened(Panel<2> panel, double compaction) {
   const double f = 1 - compaction;
   for (auto& strand : panel.strands) {
-    for (auto& x : strand.x) x[1] *= f;
-    for (auto& F : strand.F) F.row(1) *= f;
+    for (auto& x : strand.points.x) x[1] *= f;
+    for (auto& F : strand.points.F) F.row(1) *= f;
   }
   panel.top_mm *= f;
   return panel;
@@ -53,9 +53,9 @@ inline Panel<2> undulated_laminate(int rows, double length_mm, double amplitude_
   const double k = 2 * M_PI / wave_mm;
   for (auto& strand : panel.strands) {
     for (std::size_t p = 0; p < strand.size(); ++p) {
-      const double x = strand.x[p][0];
-      strand.x[p][1] += amplitude_mm * std::sin(k * x);
-      strand.F[p](1, 0) = amplitude_mm * k * std::cos(k * x);
+      const double x = strand.points.x[p][0];
+      strand.points.x[p][1] += amplitude_mm * std::sin(k * x);
+      strand.points.F[p](1, 0) = amplitude_mm * k * std::cos(k * x);
     }
   }
   return panel;
