@@ -37,7 +37,7 @@ double press_and_reach(std::uint64_t seed, const press::Resolution& resolution) 
   press::Sink<2> sink;
   sink.snapshot = [&reach](const Panel<2>& panel, int) {
     for (const auto& strand : panel.strands) {
-      for (const auto& x : strand.x) reach = std::max({reach, -x[0], x[0] - kLength});
+      for (const auto& x : strand.points.x) reach = std::max({reach, -x[0], x[0] - kLength});
     }
   };
   press::press<2>(mat, schedule, press::setup(mat, resolution, mpm::Side::kFree, mpm::Options{}), sink);
