@@ -107,7 +107,8 @@ struct EngineState {
   double time_step_s = 0;
   Platen bottom, top;
   Energies energies;  // totals only; kinetic and elastic follow from the bodies
-  // Nodes of several pairs, over all steps, whose impulses of contact still changed after the last pass.
+  // Nodes of several pairs, over all steps, whose velocities the last pass of contact still changed by a hundredth of
+  // the first pass's change.
   long long unconverged_contacts = 0;
 };
 
