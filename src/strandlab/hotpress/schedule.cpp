@@ -167,6 +167,7 @@ Phase parse_phase(const std::string& text) {
 
 std::vector<Phase> parse_schedule(const std::vector<std::string>& texts) {
   std::vector<Phase> phases;
+  phases.reserve(texts.size());
   for (const auto& text : texts) phases.push_back(parse_phase(text));
   check_order(phases);
   check_times(phases);

@@ -106,7 +106,8 @@ struct EngineState {
   // Totals. The engine leaves kinetic and elastic alone, since they follow from the bodies: a checkpoint holds them as
   // energies() gave them.
   Energies energies;
-  // Nodes of several pairs, over all steps, whose impulses of contact still changed after the last pass.
+  // Nodes of several pairs, over all steps, whose velocities the last pass of contact still changed by a hundredth of
+  // the first pass's change.
   long long unconverged_contacts = 0;
 };
 

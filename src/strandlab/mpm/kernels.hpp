@@ -144,7 +144,7 @@ struct PencilResult {
   double external_work;      // mJ
   double contact_ticks;
   int overflow;     // more than kMaxFields fields at a node
-  int unconverged;  // nodes whose impulses still changed after kContactPasses
+  int unconverged;  // nodes whose impulses still changed by a hundredth after kContactPasses
 };
 
 template <int Dim>

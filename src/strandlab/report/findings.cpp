@@ -89,6 +89,7 @@ std::vector<Finding> pressing_findings(const std::vector<press::Record>& records
                                        const std::vector<std::string>& warnings) {
   if (records.empty() || !(records.back().platen_work_mJ > 0)) return {{Level::kNote, "The mat was not pressed."}};
   std::vector<Finding> list;
+  list.reserve(warnings.size() + 3);
   for (const auto& warning : warnings) list.push_back({Level::kWarning, warning});
   if (warnings.empty()) list.push_back(about_inertia(records));
   const auto balance = about_balance(records.back());

@@ -145,8 +145,11 @@ STRANDLAB_INLINE double contact_pass(Meeting<Dim>* m, int fields, Pair<Dim>* pai
   return __builtin_sqrt(largest);
 }
 
-// Nothing changes any more: the last pass changed no velocity by more than this part of the first pass's change.
+// Parts of the first pass's largest change of velocity: nothing changes any more; and what the last pass allowed may
+// still change without being counted. (On 40 mm of the OSB case 2 nodes a step change by more than the first after all
+// passes, 1 in 1700 steps by more than the second.)
 inline constexpr double kContactTolerance = 1e-6;
+inline constexpr double kContactUnsettled = 1e-2;
 
 // The impulses of all pairs at a node, then the velocities of its first `real` fields (images follow them) and the
 // energies lost.
@@ -181,7 +184,7 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
     if (k == 0) first = last;
     if (last <= kContactTolerance * first) break;
   }
-  if (count > 1 && last > kContactTolerance * first) ++result.unconverged;
+  if (count > 1 && last > kContactUnsettled * first) ++result.unconverged;
   // Work of each impulse on the mean relative velocity of the step (all its forces included): what the pair lost.
   for (int p = 0; p < count; ++p) {
     const Pair<Dim>& pair = pairs[p];
