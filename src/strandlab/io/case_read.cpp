@@ -385,7 +385,7 @@ std::string opening_of(const Given& given, const Key& key) {
 
 // The same for a file that may prove unreadable: a control character in its name most likely was a backslash.
 std::string opening_of_file(const Given& given, const Key& key) {
-  const auto opening = opening_of(given, key);
+  auto opening = opening_of(given, key);
   const auto* text = given.node->as_string();
   const auto is_control = [](unsigned char ch) { return ch < 0x20 || ch == 0x7F; };
   if (!text || std::none_of(text->get().begin(), text->get().end(), is_control)) return opening;

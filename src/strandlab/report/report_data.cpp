@@ -76,7 +76,7 @@ std::vector<wood::Material> materials_of(const io::Case& c, const Json& record) 
   const Json::json_pointer used("/mat/weight_fraction_by_material");
   if (!record.contains(used)) return materials;
   for (const auto& [name, fraction] : record[used].items()) {
-    const auto m = std::find_if(known.begin(), known.end(), [&](const auto& wood) { return wood.name == name; });
+    const auto m = std::find_if(known.begin(), known.end(), [&n = name](const auto& wood) { return wood.name == n; });
     if (m != known.end()) add(*m);
   }
   return materials;
