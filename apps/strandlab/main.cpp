@@ -24,11 +24,13 @@ namespace {
 
 enum Exit { kDone = 0, kBadInput = 2, kFailed = 3 };
 
-constexpr std::size_t kLongestMessage = 4000;  // characters; values in it are shortened where they are quoted
+constexpr std::size_t kLongestMessage = 4000;  // bytes; values in it are shortened where they are quoted
 
 // A message on one line of the terminal, whatever the user's bytes in it.
 std::string shown(const std::string& what) {
-  return strandlab::printable(strandlab::shortened(what, kLongestMessage));
+  if (what.size() <= kLongestMessage) return strandlab::printable(what);
+  const auto half = kLongestMessage / 2;  // what is wrong stands at the end
+  return strandlab::printable(what.substr(0, half)) + " ... " + strandlab::printable(what.substr(what.size() - half));
 }
 
 int fail(Exit code, const char* what) {
