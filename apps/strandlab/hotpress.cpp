@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "case_arguments.hpp"
@@ -15,6 +14,7 @@
 #include "git_hash.hpp"
 #include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/json_text.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/core/version.hpp"
 #include "strandlab/io/case_write.hpp"
@@ -30,27 +30,20 @@ constexpr std::array kFiles{"case.toml", "hotpress.csv", "transfer_profiles.csv"
 
 // Results of `strandlab run` are no hot press of ours to replace: their run.json knows of panels.
 void refuse_folder(const fs::path& folder, bool force) {
-  const auto record = folder / "run.json";
-  if (fs::exists(folder) && !fs::is_directory(folder))
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     throw InputError(fmt::format("{}: this is a file, not a folder; choose another with -o", folder.string()));
-  const bool empty =
-      std::none_of(kFiles.begin(), kFiles.end(), [&](const char* name) { return fs::exists(folder / name); });
-  if (empty) return;
-  std::ifstream stream(record);
-  const auto json = nlohmann::json::parse(stream, nullptr, false);
-  if (json.is_object() && json.contains("steps")) {
-    throw InputError(
-        fmt::format("{}: holds the panels of strandlab run; choose another folder with -o", folder.string()));
+  const auto there = [&](const char* name) { return fs::exists(folder / name, error); };
+  if (std::none_of(kFiles.begin(), kFiles.end(), there)) return;
+  if (there("run.json")) {
+    const auto record = read_json(folder / "run.json", "the record of a hot press");
+    if (!record.is_object() || record.contains("steps"))
+      throw InputError(
+          fmt::format("{}: holds the panels of strandlab run; choose another folder with -o", folder.string()));
   }
   if (!force)
     throw InputError(
         fmt::format("{}: has results already; --force replaces them, -o chooses another folder", folder.string()));
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw InputError(fmt::format("{}: cannot make this folder: {}", folder.string(), error.message()));
 }
 
 std::vector<std::string> remarks_on(const io::Case& c) {
@@ -72,12 +65,13 @@ void press(const CaseArguments& arguments) {
   refuse_folder(folder, arguments.force);
   auto notes = remarks_on(c);
   const auto mat = io::make_mat(c);
-  const auto result = io::press_hot(io::hotpress_settings(c), io::pressed_mat(c, mat));
+  const auto result = hotpress::press_in_band(io::hotpress_settings(c), io::pressed_mat(c, mat));
   notes.insert(notes.end(), result.cycle.warnings.begin(), result.cycle.warnings.end());
   for (const auto& remark : hotpress::remarks(result.cycle, result.answers)) notes.push_back(remark);
 
   make_folder(folder);
-  c.hotpress.given = true;  // the file shows all keys that were used
+  fs::remove(folder / "run.json");  // written last again: a kill in between leaves no record beside other results
+  c.hotpress.given = true;          // the file shows all keys that were used
   write_atomically(folder / "case.toml", io::resolved_text(c));
   io::hotpress_table(result.cycle).write(folder / "hotpress.csv");
   io::profiles_table(result.cycle).write(folder / "transfer_profiles.csv");

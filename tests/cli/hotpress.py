@@ -84,6 +84,9 @@ def results_are_kept():
     pathlib.Path("cold").mkdir()
     write("cold/run.json", '{"strandlab": "0", "case": [], "steps": {}}')
     expect_bad_input(["hotpress", "hot.toml", "-o", "cold", "--force"], ["holds the panels of strandlab run"])
+    pathlib.Path("deep").mkdir()
+    write("deep/run.json", '{"hotpress": ' + "[" * 60000 + "]" * 60000 + "}")  # ended by a signal: a call for every level
+    expect_bad_input(["hotpress", "hot.toml", "-o", "deep", "--force"], ["deep/run.json", "more than 100 deep"])
     write("file", "")
     expect_bad_input(["hotpress", "hot.toml", "-o", "file"], ["this is a file, not a folder"])
 

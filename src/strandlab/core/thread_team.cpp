@@ -6,8 +6,7 @@
 // many chunks the loop has and which is next. A chunk is open while next < chunks and the team does not end.
 //
 //  - A worker sleeps only in wait(seen), with a `seen` that shows no open chunk and no end. wait() returns once the
-//  word
-//    differs from `seen`; a word that was changed and is the same again has nothing open either, so that a change
+//    word differs from `seen`; a word that was changed and is the same again has nothing open either, so that a change
 //    missed in between (a loop that others finished) is nothing to be woken for. A loop that opens and the end both
 //    change the word before they notify, and no later step takes the end back: none can be missed between reading and
 //    waiting.
@@ -18,8 +17,7 @@
 //    the current loop only.
 //  - A claim that finds nothing open is void and only raises `next`. Each thread makes at most one per loop, since it
 //    sees the raised word afterwards: next <= chunks + threads, within its 32 bits.
-//  - The loop itself does not wait for a worker that sleeps or is late: the calling thread claims chunks like the
-//  others.
+//  - The loop itself does not wait for a worker that sleeps or is late: the calling thread claims chunks too.
 
 namespace strandlab {
 namespace {

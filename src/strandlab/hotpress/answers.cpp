@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace strandlab::hotpress {
 namespace {
@@ -157,6 +158,19 @@ Answers answers(const Cycle& cycle) {
   a.heat = end.heat;
   a.water_out = end.water_out;
   return a;
+}
+
+Band press_in_band(const Settings& settings, const PressedMat& mat) {
+  const auto answers_with = [&](double factor) {
+    auto s = settings;
+    s.constants.permeability_400 *= factor;
+    s.constants.permeability_floor *= factor;
+    for (auto& point : s.constants.permeabilities) point.permeability *= factor;
+    return answers(press_hot(s, mat));
+  };
+  auto cycle = press_hot(settings, mat);
+  const auto own = answers(cycle);
+  return {std::move(cycle), own, answers_with(3), answers_with(1. / 3)};
 }
 
 const char* risk(double blow) {

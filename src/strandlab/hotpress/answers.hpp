@@ -49,6 +49,14 @@ struct Answers {
 // Throws std::invalid_argument for a cycle without a step.
 Answers answers(const Cycle& cycle);
 
+// A cycle as settled, and its answers with a mat three times and a third as permeable: gas pressure is known no better.
+struct Band {
+  Cycle cycle;
+  Answers answers, permeable, tight;
+};
+// Presses three times. Throws as press_hot().
+Band press_in_band(const Settings& settings, const PressedMat& mat);
+
 // "low" below .5, "watch" to 1, "blow likely" above.
 const char* risk(double blow);
 

@@ -12,7 +12,6 @@
 namespace strandlab::hotpress {
 namespace {
 
-constexpr double kCellWallDensity = 1500;  // kg/m^3
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFineStep = .05, kFineFor = 2;   // s, after the press begins to open: pressure is gone within a second
 constexpr double kOpenStep = .25;                 // s, after that
@@ -471,7 +470,7 @@ MatSize size_of(const PressedMat& mat) {
     size.dry_mass += layer.dry_mass;
     size.solid_thickness += layer.dry_mass / layer.material.density_kg_m3;
   }
-  size.full_thickness = size.dry_mass / kCellWallDensity;
+  size.full_thickness = size.dry_mass / transfer::Constants{}.cell_wall_density;
   return size;
 }
 

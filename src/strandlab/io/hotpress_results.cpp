@@ -15,13 +15,6 @@ using Json = nlohmann::json;
 
 constexpr int kProfiles = 100;  // times of transfer_profiles.csv
 
-hotpress::Settings with_permeability(hotpress::Settings s, double factor) {
-  s.constants.permeability_400 *= factor;
-  s.constants.permeability_floor *= factor;
-  for (auto& point : s.constants.permeabilities) point.permeability *= factor;
-  return s;
-}
-
 // Mean of the two cells that have a part `from_face` of the mass between them and their faces.
 template <class Of>
 double both_sides(const Instant& i, double from_face, Of of) {
@@ -66,13 +59,6 @@ std::string cure_line(const Answers& a) {
 }
 
 }  // namespace
-
-HotPressResult press_hot(const hotpress::Settings& settings, const hotpress::PressedMat& mat) {
-  auto cycle = hotpress::press_hot(settings, mat);
-  const auto own = hotpress::answers(cycle);
-  return {std::move(cycle), own, hotpress::answers(hotpress::press_hot(with_permeability(settings, 3), mat)),
-          hotpress::answers(hotpress::press_hot(with_permeability(settings, 1. / 3), mat))};
-}
 
 CsvTable hotpress_table(const Cycle& cycle) {
   CsvTable table({"time_s",
@@ -148,7 +134,7 @@ CsvTable profiles_table(const Cycle& cycle) {
   return table;
 }
 
-Json to_json(const HotPressResult& result) {
+Json to_json(const hotpress::Band& result) {
   const auto& a = result.answers;
   const auto& mat = result.cycle.mat;
   const auto& d = a.density;
@@ -196,7 +182,7 @@ Json to_json(const HotPressResult& result) {
           {"balance_error_energy", result.cycle.worst_balance[transfer::kEnergy]}};
 }
 
-std::vector<std::string> summary(const HotPressResult& result) {
+std::vector<std::string> summary(const hotpress::Band& result) {
   const auto& a = result.answers;
   std::vector<std::string> lines;
   lines.push_back(fmt::format("press time to cure   {} ({}){}", seconds(a.press_time), cure_line(a),

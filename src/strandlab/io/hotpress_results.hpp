@@ -10,13 +10,6 @@
 
 namespace strandlab::io {
 
-// The cycle as settled, and with a mat three times and a third as permeable: gas pressure is known no better.
-struct HotPressResult {
-  hotpress::Cycle cycle;
-  hotpress::Answers answers, permeable, tight;
-};
-HotPressResult press_hot(const hotpress::Settings& settings, const hotpress::PressedMat& mat);
-
 // hotpress.csv: one line per step. M are kg of water per kg of dry wood; gas pressures are above the room's. Face: mean
 // of both outermost cells; quarter: of the two cells a quarter of the mass from the faces; core: the cell next to
 // mid-mass; cure_face and cure_core are of each resin in the least cured of the layers that carry it.
@@ -26,9 +19,9 @@ CsvTable hotpress_table(const hotpress::Cycle& cycle);
 CsvTable profiles_table(const hotpress::Cycle& cycle);
 
 // What run.json has under `hotpress`; null for what the cycle does not reach.
-nlohmann::json to_json(const HotPressResult& result);
+nlohmann::json to_json(const hotpress::Band& band);
 
 // The same in a few lines: how long must I press?
-std::vector<std::string> summary(const HotPressResult& result);
+std::vector<std::string> summary(const hotpress::Band& band);
 
 }  // namespace strandlab::io

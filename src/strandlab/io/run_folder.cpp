@@ -286,8 +286,7 @@ void RunFolder::erase_steps(Step first) {
 }
 
 // What a kill left half written, and files of steps that the record does not know: from before --force, or a page of
-// another state. The record is saved first, so that a kill in
-// between leaves no result without its case.
+// another state. The record is saved first, so that a kill in between leaves no result without its case.
 void RunFolder::remove_leftovers() const {
   for (const auto step : kSteps) {
     if (record_["steps"].contains(name_of_step(step))) continue;

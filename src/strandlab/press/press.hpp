@@ -11,8 +11,8 @@
 
 namespace strandlab::press {
 
-// Limits beyond which a pressing is warned of. Judgement: at each of them moduli move by less than the scatter between
-// grids (docs/performance.md).
+// Limits beyond which a pressing is warned of. Judgement; how moduli differ between speeds on either side of them is in
+// docs/user-guide.md, "Resolution and speed".
 inline constexpr double kJudgedFrom = 0.05;    // compaction from which inertia is judged; before, gaps close unloaded
 inline constexpr double kKineticLimit = 0.05;  // energy of the strands' mean motion over internal energy
 inline constexpr double kForceLimit = 0.10;    // difference of the platens' forces over their mean

@@ -20,12 +20,6 @@ struct Reference {
 };
 const std::array<double, 8> kTimes{5, 15, 25, 30, 60, 120, 180, 240};
 
-double least_cure(const Instant& i, bool pf) {
-  double least = 1;
-  for (const auto& c : i.cells) least = std::min(least, pf ? c.cure_face : c.cure_core);
-  return least;
-}
-
 Cycle column_cycle(int cells) {
   return press_hot(settings_of(Mechanics::kColumn, cells, .25, {"close to 12 mm in 25 s", "hold until 240 s"}),
                    poplar_mat());
@@ -72,8 +66,9 @@ TEST_P(ColumnCycle, EmergingProfile) {
   EXPECT_NEAR(core(end).density, p.middle, .06);
   EXPECT_NEAR(1e3 * cycle.thickness_unloaded, p.opened, 6e-5);
   for (const double error : cycle.worst_balance) EXPECT_LT(error, 1e-10);
-  report("densest layer", peak.density, std::to_string(p.densest), "kg/m^3");
-  report("stress at 25 s", 1e-6 * at(cycle, 25).stress, std::to_string(p.rows[2][5]), "MPa");
+  report("column, densest layer, cells: " + std::to_string(p.cells), peak.density, std::to_string(p.densest), "kg/m^3");
+  report("column, stress at 25 s, cells: " + std::to_string(p.cells), 1e-6 * at(cycle, 25).stress,
+         std::to_string(p.rows[2][5]), "MPa");
 }
 
 INSTANTIATE_TEST_SUITE_P(Cells, ColumnCycle,
@@ -207,7 +202,7 @@ TEST(ColumnCycle, Sensitivity) {
         EXPECT_GT((found[j] - reference[j]) * change, 0) << v.name << ", " << j;
       }
     }
-    report("largest difference, " + v.name, worst, "< 2 %");
+    report("column, largest difference from the independent program, " + v.name, worst, "< 2 %");
   }
 }
 

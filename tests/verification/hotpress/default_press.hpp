@@ -54,6 +54,13 @@ inline double core_100(const Cycle& cycle) {
   return time_of(cycle, 100, [](const Instant& i) { return core(i).T; });
 }
 
+// Of one resin, were it in all cells.
+inline double least_cure(const Instant& i, bool pf) {
+  double least = 1;
+  for (const auto& c : i.cells) least = std::min(least, pf ? c.cure_face : c.cure_core);
+  return least;
+}
+
 struct Peak {
   double value = 0, time = 0;
 };

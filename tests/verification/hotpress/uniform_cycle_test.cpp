@@ -21,12 +21,6 @@ struct Reference {
 };
 const std::array<double, 7> kTimes{15, 30, 60, 90, 120, 180, 240};
 
-double least_cure(const Instant& i, bool pf) {
-  double least = 1;
-  for (const auto& c : i.cells) least = std::min(least, pf ? c.cure_face : c.cure_core);
-  return least;
-}
-
 Cycle uniform_cycle(int cells) {
   return press_hot(settings_of(Mechanics::kUniform, cells, .25, {"close to 12 mm in 25 s", "hold until 240 s"}),
                    poplar_mat());
@@ -56,8 +50,9 @@ TEST_P(UniformCycle, TemperatureMoistureGasAndCure) {
   EXPECT_NEAR(cycle.record.back().water_out / 2, p.water, 6e-6);
   EXPECT_NEAR(1e-3 * cycle.record.back().heat / 2, p.heat, 6e-3);
   for (const double error : cycle.worst_balance) EXPECT_LT(error, 1e-10);
-  report("core at 90 s", core(at(cycle, 90)).T, p.cells == 20 ? "123.128" : "123.303", "C");
-  report("largest relative error of a balance",
+  report("uniform density, core at 90 s, cells: " + std::to_string(p.cells), core(at(cycle, 90)).T,
+         p.cells == 20 ? "123.128" : "123.303", "C");
+  report("uniform density, largest relative error of a balance, cells: " + std::to_string(p.cells),
          *std::max_element(cycle.worst_balance.begin(), cycle.worst_balance.end()), "< 1e-10");
 }
 

@@ -80,8 +80,9 @@ TEST_P(Conduction, MidPlaneOfAPlate) {
     EXPECT_NEAR(fine[i], p.fine[i], 6e-5) << kTimes[i];
   }
   const double ratio = (coarse[1] - p.exact[1]) / (fine[1] - p.exact[1]);
-  report("error at 60 s with 20 cells over that with 80, second order", ratio, "16 +- 2");
-  EXPECT_NEAR(ratio, 16, 2);
+  report(std::string("conduction, ") + (std::isinf(p.contact) ? "perfect contact" : "contact of 500 W/m2K") +
+             ": error at 60 s with 20 cells over that with 80",
+         ratio, near(16, 2).because("the order is 2 in the limit of many cells"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Contact, Conduction,
@@ -127,9 +128,8 @@ TEST_P(SealedMat, EvaporationAndCondensation) {
     for (std::size_t j = 0; j < 6; ++j) EXPECT_NEAR(row[j], p.rows[i][j], .6 * digit[j]) << kTimes[i] << " s, " << j;
   }
   EXPECT_NEAR(1e-3 * solver.received()[kEnergy], p.energy, .006);
-  report("water of the sealed mat after 240 s over that at the start, less 1", solver.content()[kWater] / water - 1,
-         "1e-12");
-  EXPECT_NEAR(solver.content()[kWater] / water, 1, 1e-12);
+  report("water of the sealed mat after 240 s over that at the start, less 1, cells: " + std::to_string(p.cells),
+         solver.content()[kWater] / water - 1, within(1e-12).because(strandlab::test::kRoundOff));
   EXPECT_LT(worst_balance(solver), 1e-10);
 }
 

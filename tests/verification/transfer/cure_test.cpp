@@ -61,7 +61,8 @@ TEST_P(Cure, RisingTemperature) {
       EXPECT_NEAR(alpha, given, 6e-5);
     }
     if (beta == 2)
-      report("alpha at 140 C, 2 K/s in steps of .25 s, less the exact one", alpha - heated(p.resin, 2, 140), "6e-5");
+      report("cure of " + p.resin.name + " at 140 C, 2 K/s in steps of .25 s, less the exact one",
+             alpha - heated(p.resin, 2, 140), "6e-5");
   }
 }
 
