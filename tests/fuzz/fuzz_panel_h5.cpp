@@ -129,9 +129,18 @@ class EditedFile {
       std::vector<char> values(static_cast<std::size_t>(count) * H5Tget_size(type));
       H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
       const auto at = in.next() % static_cast<std::size_t>(count);
-      const auto raw = in.number<std::uint64_t>();
-      std::memcpy(&values[at * H5Tget_size(type)], &raw, std::min(sizeof raw, H5Tget_size(type)));
-      H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+      if (H5Tis_variable_str(type) > 0) {  // in memory these are pointers to texts
+        std::vector<std::string> texts(static_cast<std::size_t>(count), "surface");
+        for (unsigned n = in.next() % 32; n > 0; --n) texts[at] += static_cast<char>(in.next());
+        std::vector<const char*> pointers;
+        for (const auto& text : texts) pointers.push_back(text.c_str());
+        H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data());
+        H5Dvlen_reclaim(type, space, H5P_DEFAULT, values.data());
+      } else {
+        const auto raw = in.number<std::uint64_t>();
+        std::memcpy(&values[at * H5Tget_size(type)], &raw, std::min(sizeof raw, H5Tget_size(type)));
+        H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+      }
     }
     H5Tclose(type);
     H5Sclose(space);
