@@ -17,9 +17,9 @@
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/bondline/example.hpp"
 #include "strandlab/bondline/plots.hpp"
-#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
+#include "strandlab/files/atomic_file.hpp"
 #include "strandlab/report/gnuplot.hpp"
 
 namespace strandlab::app {
@@ -106,13 +106,13 @@ int draw(const std::vector<bondline::Picture>& pictures, const fs::path& folder)
 }
 
 void write_results(const Arguments& a, const bondline::Analysis& analysis, const fs::path& folder) {
-  make_folder(folder);
+  files::make_folder(folder);
   specimen_table(analysis).write(folder / "specimens.csv");
   group_table(analysis).write(folder / "groups.csv");
   comparison_table(analysis).write(folder / "comparisons.csv");
   const fs::path input = a.file;
   const fs::path json = folder / (input.stem().string() + ".json");
-  write_atomically(json, bondline::to_json(analysis, input.filename().string()));
+  files::write_atomically(json, bondline::to_json(analysis, input.filename().string()));
   const int plots = draw(bondline::pictures(analysis), folder);
   print("written: {}: specimens.csv, groups.csv, comparisons.csv, {}, {} plots\n", printable(folder.string()),
         printable(json.filename().string()), plots);

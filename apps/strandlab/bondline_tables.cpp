@@ -12,13 +12,13 @@
 namespace strandlab::app {
 namespace {
 
-using Cells = std::vector<io::CsvCell>;
+using Cells = std::vector<files::CsvCell>;
 
-io::CsvCell cell(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? io::CsvCell(*value) : io::CsvCell(std::string());
+files::CsvCell cell(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? files::CsvCell(*value) : files::CsvCell(std::string());
 }
 
-io::CsvCell count(int value) {
+files::CsvCell count(int value) {
   return static_cast<long long>(value);
 }
 
@@ -52,7 +52,7 @@ void add_slope(const bondline::Slope& slope, Cells& cells) {
 
 }  // namespace
 
-io::CsvTable specimen_table(const bondline::Analysis& analysis) {
+files::CsvTable specimen_table(const bondline::Analysis& analysis) {
   std::vector<std::string> columns{"id",
                                    "compliance_t_mm_per_MPa",
                                    "standard_uncertainty_mm_per_MPa",
@@ -75,7 +75,7 @@ io::CsvTable specimen_table(const bondline::Analysis& analysis) {
     const bool taken = std::find(columns.begin(), columns.end(), factor) != columns.end();
     columns.push_back(taken ? "given_" + factor : factor);
   }
-  io::CsvTable table(columns);
+  files::CsvTable table(columns);
   for (const auto& s : analysis.specimens) {
     Cells cells{s.specimen.id};
     add_result(s, cells);
@@ -87,9 +87,10 @@ io::CsvTable specimen_table(const bondline::Analysis& analysis) {
   return table;
 }
 
-io::CsvTable group_table(const bondline::Analysis& analysis) {
-  io::CsvTable table({"group", "within", "n", "excluded", "compliance_t_mm_per_MPa", "sd_mm_per_MPa", "low_mm_per_MPa",
-                      "high_mm_per_MPa", "t", "p", "mean_k_N_per_mm", "compliance_t_of_mean_k_mm_per_MPa"});
+files::CsvTable group_table(const bondline::Analysis& analysis) {
+  files::CsvTable table({"group", "within", "n", "excluded", "compliance_t_mm_per_MPa", "sd_mm_per_MPa",
+                         "low_mm_per_MPa", "high_mm_per_MPa", "t", "p", "mean_k_N_per_mm",
+                         "compliance_t_of_mean_k_mm_per_MPa"});
   for (const auto& g : analysis.groups) {
     const auto& c = g.compliance_t;
     table.add_row({g.name, g.family, count(c.n), count(g.excluded), cell(c.mean), cell(c.sd), cell(c.low), cell(c.high),
@@ -98,10 +99,10 @@ io::CsvTable group_table(const bondline::Analysis& analysis) {
   return table;
 }
 
-io::CsvTable comparison_table(const bondline::Analysis& analysis) {
-  io::CsvTable table({"within", "test", "first", "second", "difference_mm_per_MPa", "low_mm_per_MPa", "high_mm_per_MPa",
-                      "statistic", "df1", "df2", "p", "p_holm"});
-  const io::CsvCell none = std::string();
+files::CsvTable comparison_table(const bondline::Analysis& analysis) {
+  files::CsvTable table({"within", "test", "first", "second", "difference_mm_per_MPa", "low_mm_per_MPa",
+                         "high_mm_per_MPa", "statistic", "df1", "df2", "p", "p_holm"});
+  const files::CsvCell none = std::string();
   for (const auto& family : analysis.families) {
     if (!family.anova) continue;
     const auto& a = *family.anova;

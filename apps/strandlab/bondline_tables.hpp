@@ -2,12 +2,12 @@
 #pragma once
 
 #include "strandlab/bondline/analysis.hpp"
-#include "strandlab/io/csv.hpp"
+#include "strandlab/files/csv.hpp"
 
 namespace strandlab::app {
 
-io::CsvTable specimen_table(const bondline::Analysis& analysis);
-io::CsvTable group_table(const bondline::Analysis& analysis);
-io::CsvTable comparison_table(const bondline::Analysis& analysis);
+files::CsvTable specimen_table(const bondline::Analysis& analysis);
+files::CsvTable group_table(const bondline::Analysis& analysis);
+files::CsvTable comparison_table(const bondline::Analysis& analysis);
 
 }  // namespace strandlab::app

@@ -12,11 +12,11 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "git_hash.hpp"
-#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
-#include "strandlab/core/json_text.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/core/version.hpp"
+#include "strandlab/files/atomic_file.hpp"
+#include "strandlab/files/json_text.hpp"
 #include "strandlab/io/case_write.hpp"
 #include "strandlab/io/hotpress_case.hpp"
 #include "strandlab/io/hotpress_results.hpp"
@@ -36,7 +36,7 @@ void refuse_folder(const fs::path& folder, bool force) {
   const auto there = [&](const char* name) { return fs::exists(folder / name, error); };
   if (std::none_of(kFiles.begin(), kFiles.end(), there)) return;
   if (there("run.json")) {
-    const auto record = read_json(folder / "run.json", "the record of a hot press");
+    const auto record = files::read_json(folder / "run.json", "the record of a hot press");
     if (!record.is_object() || record.contains("steps"))
       throw InputError(
           fmt::format("{}: holds the panels of strandlab run; choose another folder with -o", folder.string()));
@@ -69,15 +69,15 @@ void press(const CaseArguments& arguments) {
   notes.insert(notes.end(), result.cycle.warnings.begin(), result.cycle.warnings.end());
   for (const auto& remark : hotpress::remarks(result.cycle, result.answers)) notes.push_back(remark);
 
-  make_folder(folder);
+  files::make_folder(folder);
   fs::remove(folder / "run.json");  // written last again: a kill in between leaves no record beside other results
   c.hotpress.given = true;          // the file shows all keys that were used
-  write_atomically(folder / "case.toml", io::resolved_text(c));
+  files::write_atomically(folder / "case.toml", io::resolved_text(c));
   io::hotpress_table(result.cycle).write(folder / "hotpress.csv");
   io::profiles_table(result.cycle).write(folder / "transfer_profiles.csv");
   const nlohmann::json record{
       {"strandlab", version()}, {"git", kGitHash}, {"hotpress", io::to_json(result)}, {"warnings", notes}};
-  write_atomically(folder / "run.json", record.dump(2) + "\n");
+  files::write_atomically(folder / "run.json", record.dump(2) + "\n");
   for (const auto& line : io::summary(result)) print("{}\n", printable(line));
   for (const auto& note : notes) tell(STDERR_FILENO, fmt::format("warning: {}\n", printable(note)));
   print("{}: hotpress.csv, transfer_profiles.csv, run.json\n", printable(folder.string()));

@@ -17,9 +17,9 @@
 
 #include "commands.hpp"
 #include "console.hpp"
-#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
+#include "strandlab/files/atomic_file.hpp"
 #include "strandlab/io/case.hpp"
 #include "strandlab/io/run_folder.hpp"
 #include "strandlab/report/report_data.hpp"
@@ -150,7 +150,7 @@ void make_movie(const MovieArguments& a) {
   arguments.insert(arguments.end(), encoding.begin(), encoding.end());
   arguments.push_back(film.string());
   run_ffmpeg(arguments, scratch / "ffmpeg.log");
-  write_atomically(a.out, read_text(film));
+  files::write_atomically(a.out, read_text(film));
   print("movie: {} frames -> {}\n", count, printable(a.out));
 }
 

@@ -18,9 +18,9 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "profile_bins.hpp"
-#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
+#include "strandlab/files/atomic_file.hpp"
 #include "strandlab/io/case_write.hpp"
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/report/density_profiles.hpp"
@@ -233,7 +233,7 @@ void profile_runs(const Arguments& a) {
   for (std::size_t i = 0; i < runs.size(); ++i) replicates.push_back(profiles_of(runs[i], names[i], a.bins));
   const auto means = means_of(replicates);
   const auto comparison = compare(a, means);
-  make_folder(folder);
+  files::make_folder(folder);
   print_means(means);
   report::replicate_profile_table(replicates).write(folder / "profile.csv");
   report::replicate_summary_table(replicates).write(folder / "profile_summary.csv");

@@ -9,8 +9,8 @@
 
 #include "commands.hpp"
 #include "console.hpp"
-#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/text.hpp"
+#include "strandlab/files/atomic_file.hpp"
 #include "strandlab/io/run_folder.hpp"
 #include "strandlab/report/html.hpp"
 #include "strandlab/report/report_data.hpp"
@@ -20,7 +20,7 @@ namespace strandlab::app {
 std::filesystem::path write_report_page(const std::filesystem::path& run_folder, const std::filesystem::path& out) {
   const auto page = report::empty_page();
   auto file = out.empty() ? run_folder / "report.html" : out;
-  write_atomically(file, report::filled_page(page, report::report_data(run_folder)));
+  files::write_atomically(file, report::filled_page(page, report::report_data(run_folder)));
   return file;
 }
 

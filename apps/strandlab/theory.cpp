@@ -10,8 +10,8 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/files/csv.hpp"
 #include "strandlab/io/case.hpp"
-#include "strandlab/io/csv.hpp"
 #include "strandlab/theory/estimate.hpp"
 #include "theory_rows.hpp"
 
@@ -40,13 +40,13 @@ theory::Question question_of(const Arguments& a) {
   return q;
 }
 
-io::CsvTable table_of(const std::vector<theory::Estimate>& estimates) {
-  io::CsvTable table(
+files::CsvTable table_of(const std::vector<theory::Estimate>& estimates) {
+  files::CsvTable table(
       {"model", "compaction", "density_kg_m3", "compliance_t_mm_per_MPa", "strand_length_mm", "gap_mm", "modulus_MPa"});
   for (const auto& e : estimates)
     table.add_row({e.model, e.compaction, e.density_kg_m3,
-                   e.compliance_t ? io::CsvCell(*e.compliance_t) : io::CsvCell(std::string()), e.length_mm, e.gap_mm,
-                   e.modulus_MPa});
+                   e.compliance_t ? files::CsvCell(*e.compliance_t) : files::CsvCell(std::string()), e.length_mm,
+                   e.gap_mm, e.modulus_MPa});
   return table;
 }
 

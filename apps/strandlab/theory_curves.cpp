@@ -56,8 +56,8 @@ std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows,
   return theory;
 }
 
-io::CsvTable theory_table(const std::vector<TheoryModulus>& moduli) {
-  io::CsvTable table({"compaction", "model", "test", "compliance_t_mm_per_MPa", "modulus_MPa"});
+files::CsvTable theory_table(const std::vector<TheoryModulus>& moduli) {
+  files::CsvTable table({"compaction", "model", "test", "compliance_t_mm_per_MPa", "modulus_MPa"});
   for (const auto& m : moduli) table.add_row({m.compaction, m.model, m.test, m.compliance_t_mm_per_MPa, m.modulus_MPa});
   return table;
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "strandlab/io/csv.hpp"
+#include "strandlab/files/csv.hpp"
 #include "strandlab/report/gnuplot.hpp"
 #include "strandlab/report/result_tables.hpp"
 #include "strandlab/theory/models.hpp"
@@ -27,7 +27,7 @@ std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows,
                                          const std::vector<report::PanelModulus>& moduli, wood::OffAxis off_axis);
 
 // compaction, model, test, compliance_t_mm_per_MPa, modulus_MPa; one row per value.
-io::CsvTable theory_table(const std::vector<TheoryModulus>& moduli);
+files::CsvTable theory_table(const std::vector<TheoryModulus>& moduli);
 
 // Reference curves of a test for report::plot_modulus_against_compliance: one per model and compaction, named once per
 // model.

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "strandlab/files/csv.hpp"
 #include "strandlab/hotpress/answers.hpp"
-#include "strandlab/io/csv.hpp"
 
 namespace strandlab::io {
 

@@ -12,11 +12,11 @@
 #include <initializer_list>
 #include <utility>
 
-#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
-#include "strandlab/core/json_text.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/core/version.hpp"
+#include "strandlab/files/atomic_file.hpp"
+#include "strandlab/files/json_text.hpp"
 
 namespace strandlab::io {
 namespace {
@@ -111,7 +111,7 @@ bool is_record(const Json& record) {
 }
 
 Json read_record(const fs::path& file) {
-  auto record = read_json(file, "the record of a strandlab run");
+  auto record = files::read_json(file, "the record of a strandlab run");
   if (!is_record(record))
     throw InputError(
         fmt::format("{}: not the record of a strandlab run; choose another folder with -o", file.string()));
@@ -119,7 +119,7 @@ Json read_record(const fs::path& file) {
 }
 
 void save_record(const Json& record, const fs::path& folder) {
-  write_atomically(folder / "run.json", record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  files::write_atomically(folder / "run.json", record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 std::vector<std::string> all_lines(const Case& c) {
@@ -170,7 +170,7 @@ RunFolder::RunFolder(fs::path folder, const Case& c, Step first, bool force, dou
   if (exists) record_ = read_record(file("run.json"));
   if (exists && !force) refuse_other_case(c);
   if (first == Step::kTest) refuse_unpressed(exists, c);
-  make_folder(folder_);
+  files::make_folder(folder_);
   lock_ = lock_folder(folder_, LOCK_EX);
   if (exists && force) {
     const auto recorded = record_["case"].get<std::vector<std::string>>();
@@ -294,7 +294,7 @@ void RunFolder::remove_leftovers() const {
   }
   std::vector<fs::path> temporaries;
   for (const auto& entry : fs::recursive_directory_iterator(folder_, fs::directory_options::skip_permission_denied)) {
-    if (is_temporary(entry.path())) temporaries.push_back(entry.path());
+    if (files::is_temporary(entry.path())) temporaries.push_back(entry.path());
   }
   for (const auto& temporary : temporaries) fs::remove(temporary);
 }
@@ -304,7 +304,7 @@ void RunFolder::write_case(const Case& c) {
   record_["case_name"] = as_text(c.name);
   record_["case"] = all_lines(c);
   save();
-  write_atomically(file("case.toml"), resolved_text(c));
+  files::write_atomically(file("case.toml"), resolved_text(c));
 }
 
 Json read_run_record(const fs::path& folder) {

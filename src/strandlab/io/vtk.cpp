@@ -11,8 +11,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/version.hpp"
+#include "strandlab/files/atomic_file.hpp"
 #include "strandlab/panel/point_fields.hpp"
 
 namespace strandlab::io {
@@ -163,7 +163,7 @@ std::string vtk_file(const char* type, const std::string& body) {
 template <int Dim>
 void write_vtu(const Panel<Dim>& panel, const std::filesystem::path& file) {
   const std::string grid = "<UnstructuredGrid>\n" + mesh(panel) + cell_data(panel) + "</Piece>\n</UnstructuredGrid>\n";
-  write_atomically(file, vtk_file("UnstructuredGrid", grid));
+  files::write_atomically(file, vtk_file("UnstructuredGrid", grid));
 }
 
 template void write_vtu(const Panel<2>&, const std::filesystem::path&);
@@ -174,7 +174,7 @@ void write_pvd(const std::vector<PvdEntry>& entries, const std::filesystem::path
   for (const auto& entry : entries) {
     body += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.compaction, escaped(entry.file));
   }
-  write_atomically(file, vtk_file("Collection", body + "</Collection>\n"));
+  files::write_atomically(file, vtk_file("Collection", body + "</Collection>\n"));
 }
 
 }  // namespace strandlab::io

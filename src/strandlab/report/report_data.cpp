@@ -10,8 +10,8 @@
 #include <string>
 
 #include "strandlab/core/error.hpp"
-#include "strandlab/core/json_text.hpp"
 #include "strandlab/core/text.hpp"
+#include "strandlab/files/json_text.hpp"
 #include "strandlab/io/case.hpp"
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/io/run_folder.hpp"
@@ -44,7 +44,7 @@ std::string needed_text(const fs::path& file) {
 }
 
 Json read_object(const fs::path& file, const std::string& what) {
-  auto json = read_json(file, what);
+  auto json = files::read_json(file, what);
   if (!json.is_object()) throw InputError(fmt::format("{}: not a JSON object", file.string()));
   return json;
 }

@@ -1,4 +1,4 @@
-#include "strandlab/io/hdf5.hpp"
+#include "strandlab/files/hdf5.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,7 +13,7 @@
 
 #include "strandlab/core/error.hpp"
 
-namespace strandlab::io::hdf5 {
+namespace strandlab::files::hdf5 {
 namespace {
 
 constexpr std::size_t kMemoryStep = std::size_t{4} << 20;  // growth of a file in memory, bytes
@@ -358,4 +358,4 @@ std::vector<std::string> Reader::texts(const std::string& path, hsize_t count) c
   return values;
 }
 
-}  // namespace strandlab::io::hdf5
+}  // namespace strandlab::files::hdf5

@@ -1,4 +1,4 @@
-#include "strandlab/io/csv.hpp"
+#include "strandlab/files/csv.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "strandlab/core/atomic_file.hpp"
+#include "strandlab/files/atomic_file.hpp"
 
-namespace strandlab::io {
+namespace strandlab::files {
 namespace {
 
 std::string quoted(const std::string& text) {
@@ -71,4 +71,4 @@ void CsvTable::write(const std::filesystem::path& file) const {
   write_atomically(file, text());
 }
 
-}  // namespace strandlab::io
+}  // namespace strandlab::files

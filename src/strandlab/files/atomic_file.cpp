@@ -1,4 +1,4 @@
-#include "strandlab/core/atomic_file.hpp"
+#include "strandlab/files/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 
 #include "strandlab/core/error.hpp"
 
-namespace strandlab {
+namespace strandlab::files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -130,4 +130,4 @@ bool is_temporary(const fs::path& file) {
   return std::regex_match(file.filename().string(), name);
 }
 
-}  // namespace strandlab
+}  // namespace strandlab::files

@@ -1,5 +1,5 @@
 // JSON of files: what anyone may write there ends in a message, not in an exhausted stack.
-#include "strandlab/core/json_text.hpp"
+#include "strandlab/files/json_text.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 using test::message_of;
 
 std::string refusal(const std::string& text) {
-  return message_of<InputError>([&] { json_from_text(text, "a.json", "a mat file"); });
+  return message_of<InputError>([&] { files::json_from_text(text, "a.json", "a mat file"); });
 }
 
 std::string nested(int depth, const std::string& open, const std::string& close) {
@@ -27,8 +27,8 @@ std::string nested(int depth, const std::string& open, const std::string& close)
 }
 
 TEST(JsonText, IsReadUpToTheDeepestLevel) {
-  EXPECT_EQ(json_from_text(nested(kDeepestJson, "[", "]"), "a.json", "a mat file").size(), 1U);
-  EXPECT_EQ(refusal(nested(kDeepestJson + 1, "\n[", "]")),
+  EXPECT_EQ(files::json_from_text(nested(files::kDeepestJson, "[", "]"), "a.json", "a mat file").size(), 1U);
+  EXPECT_EQ(refusal(nested(files::kDeepestJson + 1, "\n[", "]")),
             "a.json: line 102: not a mat file: lists and objects within each other more than 100 deep");
 }
 
@@ -43,7 +43,7 @@ TEST(JsonText, ThousandsOfLevelsAreRefused) {
 TEST(JsonText, BracketsInTextsAreText) {
   const std::string brackets(500, '[');
   const auto text = fmt::format("[\"\\\"{}\"]", brackets);
-  EXPECT_EQ(json_from_text(text, "a.json", "a mat file").at(0), fmt::format("\"{}", brackets));
+  EXPECT_EQ(files::json_from_text(text, "a.json", "a mat file").at(0), fmt::format("\"{}", brackets));
 }
 
 TEST(JsonText, FaultsNameTheirLine) {
@@ -53,7 +53,7 @@ TEST(JsonText, FaultsNameTheirLine) {
 TEST(JsonText, FilesThatCannotBeRead) {
   const test::TemporaryFolder folder;
   const auto message = [&](const char* name) {
-    return message_of<InputError>([&] { read_json(folder / name, "a mat file"); });
+    return message_of<InputError>([&] { files::read_json(folder / name, "a mat file"); });
   };
   EXPECT_NE(message("").find("is a folder, not a mat file"), std::string::npos);
   EXPECT_NE(message("none.json").find("none.json: cannot be read as a mat file: No such file"), std::string::npos);

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace strandlab::io::hdf5 {
+namespace strandlab::files::hdf5 {
 
 using Shape = std::vector<hsize_t>;
 
@@ -106,4 +106,4 @@ class Reader {
   Id file_;
 };
 
-}  // namespace strandlab::io::hdf5
+}  // namespace strandlab::files::hdf5

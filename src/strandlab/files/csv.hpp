@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-namespace strandlab::io {
+namespace strandlab::files {
 
 // A number is written with the fewest digits that read back to the same double ("nan" and "inf" where it is not
 // finite); text is quoted where RFC 4180 asks for it.
@@ -33,4 +33,4 @@ class CsvTable {
   std::vector<std::vector<CsvCell>> rows_;
 };
 
-}  // namespace strandlab::io
+}  // namespace strandlab::files

@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace strandlab {
+namespace strandlab::files {
 
 inline constexpr int kDeepestJson = 100;  // lists and objects within each other
 
@@ -17,4 +17,4 @@ nlohmann::json json_from_text(const std::string& text, const std::string& source
 // for a folder, and a file that cannot be read or is larger.
 nlohmann::json read_json(const std::filesystem::path& file, const std::string& what);
 
-}  // namespace strandlab
+}  // namespace strandlab::files

@@ -1,4 +1,4 @@
-#include "strandlab/core/json_text.hpp"
+#include "strandlab/files/json_text.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
 
-namespace strandlab {
+namespace strandlab::files {
 namespace {
 
 using Json = nlohmann::json;
@@ -102,4 +102,4 @@ Json read_json(const std::filesystem::path& file, const std::string& what) {
   return json_from_text(text, source, what);
 }
 
-}  // namespace strandlab
+}  // namespace strandlab::files

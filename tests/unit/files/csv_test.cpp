@@ -1,4 +1,4 @@
-#include "strandlab/io/csv.hpp"
+#include "strandlab/files/csv.hpp"
 
 #include <gtest/gtest.h>
 

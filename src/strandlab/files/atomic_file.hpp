@@ -5,7 +5,7 @@
 #include <functional>
 #include <string_view>
 
-namespace strandlab {
+namespace strandlab::files {
 
 // Writes `file` through a temporary file of its own in the same folder, which is synced to disk and renamed over
 // `file`: of several that write the same file at once the last one stays, whole. Whatever happens before the rename
@@ -21,4 +21,4 @@ void make_folder(const std::filesystem::path& folder);
 // Whether a file has the name of a temporary one, "<file>.<process>-<number>.tmp": what a killed program leaves.
 bool is_temporary(const std::filesystem::path& file);
 
-}  // namespace strandlab
+}  // namespace strandlab::files
