@@ -1,4 +1,6 @@
 // strandlab hotpress: a hot press cycle through the thickness of a case's mat, in a second.
+#include "strandlab/case/hotpress.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -12,13 +14,12 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "git_hash.hpp"
+#include "strandlab/case/write.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/core/version.hpp"
 #include "strandlab/files/atomic_file.hpp"
 #include "strandlab/files/json_text.hpp"
-#include "strandlab/io/case_write.hpp"
-#include "strandlab/io/hotpress_case.hpp"
 #include "strandlab/io/hotpress_results.hpp"
 
 namespace strandlab::app {
@@ -46,7 +47,7 @@ void refuse_folder(const fs::path& folder, bool force) {
         fmt::format("{}: has results already; --force replaces them, -o chooses another folder", folder.string()));
 }
 
-std::vector<std::string> remarks_on(const io::Case& c) {
+std::vector<std::string> remarks_on(const cases::Case& c) {
   std::vector<std::string> list;
   if (!c.hotpress.given) list.push_back("the case has no [hotpress]: the default cycle is pressed (docs/hotpress.md)");
   for (const auto& kind : c.kinds) {
@@ -64,15 +65,15 @@ void press(const CaseArguments& arguments) {
   const auto folder = arguments.folder.empty() ? fs::path("runs") / (c.name + "_hotpress") : fs::path(arguments.folder);
   refuse_folder(folder, arguments.force);
   auto notes = remarks_on(c);
-  const auto mat = io::make_mat(c);
-  const auto result = hotpress::press_in_band(io::hotpress_settings(c), io::pressed_mat(c, mat));
+  const auto mat = cases::make_mat(c);
+  const auto result = hotpress::press_in_band(cases::hotpress_settings(c), cases::pressed_mat(c, mat));
   notes.insert(notes.end(), result.cycle.warnings.begin(), result.cycle.warnings.end());
   for (const auto& remark : hotpress::remarks(result.cycle, result.answers)) notes.push_back(remark);
 
   files::make_folder(folder);
   fs::remove(folder / "run.json");  // written last again: a kill in between leaves no record beside other results
   c.hotpress.given = true;          // the file shows all keys that were used
-  files::write_atomically(folder / "case.toml", io::resolved_text(c));
+  files::write_atomically(folder / "case.toml", cases::resolved_text(c));
   io::hotpress_table(result.cycle).write(folder / "hotpress.csv");
   io::profiles_table(result.cycle).write(folder / "transfer_profiles.csv");
   const nlohmann::json record{

@@ -14,9 +14,9 @@
 
 #include "composition.hpp"
 #include "git_hash.hpp"
+#include "strandlab/case/estimate.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/version.hpp"
-#include "strandlab/io/case_estimate.hpp"
 #include "strandlab/vtest/vtest.hpp"
 
 namespace strandlab::app {
@@ -47,13 +47,14 @@ std::string read_text(const std::filesystem::path& file) {
   return text.str();
 }
 
-Journey start(const CaseArguments& arguments, io::Step first, io::Step last) {
+Journey start(const CaseArguments& arguments, cases::Step first, cases::Step last) {
   auto c = arguments.read();
-  auto mat = io::make_mat(c);
-  auto panel = io::make_panel(c, mat);
+  auto mat = cases::make_mat(c);
+  auto panel = cases::make_panel(c, mat);
   vtest::check(panel, c.test);
-  if (last >= io::Step::kTest && c.sides == mpm::Side::kRoller) vtest::check_ends(panel, c.schedule.compactions.back());
-  const double disk_bytes = io::estimate(c, panel).disk_bytes;
+  if (last >= cases::Step::kTest && c.sides == mpm::Side::kRoller)
+    vtest::check_ends(panel, c.schedule.compactions.back());
+  const double disk_bytes = cases::estimate(c, panel).disk_bytes;
   io::RunFolder folder(arguments.run_folder(c), c, first, arguments.force, disk_bytes);
   folder.record()["strandlab"] = version();
   folder.record()["git"] = kGitHash;
@@ -61,14 +62,14 @@ Journey start(const CaseArguments& arguments, io::Step first, io::Step last) {
     folder.record()["date"] = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
   folder.record()["seed"] = c.seed;
   folder.record()["machine"] = machine();
-  folder.record()["mat"] = to_json(io::weigh(c, mat));
-  folder.record()["derived_constants"] = io::derived_constants(c);
+  folder.record()["mat"] = to_json(cases::weigh(c, mat));
+  folder.record()["derived_constants"] = cases::derived_constants(c);
   return {std::move(c), std::move(mat), std::move(panel), std::move(folder)};
 }
 
 }  // namespace
 
-void travel(const CaseArguments& arguments, io::Step first, io::Step last,
+void travel(const CaseArguments& arguments, cases::Step first, cases::Step last,
             const std::function<void(Journey&, Console&)>& steps) {
   auto journey = start(arguments, first, last);
   Console console;
@@ -81,7 +82,7 @@ void travel(const CaseArguments& arguments, io::Step first, io::Step last,
 }
 
 void refuse_missing_panels(const Journey& journey) {
-  auto missing = journey.folder.missing(io::Step::kPress, journey.c);
+  auto missing = journey.folder.missing(cases::Step::kPress, journey.c);
   std::erase_if(missing, [](const std::string& name) { return name.rfind("panels/", 0) != 0; });
   if (missing.empty()) return;
   throw InputError(fmt::format(
@@ -93,7 +94,7 @@ void do_mat(Journey& journey, Console& console) {
   auto& folder = journey.folder;
   const auto file = folder.file("mat.json");
   const auto text = mat::to_text(journey.mat);
-  if (folder.finished(io::Step::kMat) && folder.missing(io::Step::kMat, journey.c).empty()) {
+  if (folder.finished(cases::Step::kMat) && folder.missing(cases::Step::kMat, journey.c).empty()) {
     if (read_text(file) != text) {
       throw InputError(
           fmt::format("{}: not the mat of this case (changed by hand, or the mat file has changed since); choose "
@@ -102,12 +103,12 @@ void do_mat(Journey& journey, Console& console) {
     }
     return;
   }
-  folder.forget(io::Step::kPage);
+  folder.forget(cases::Step::kPage);
   mat::write(journey.mat, file);
-  folder.set_finished(io::Step::kMat);
+  folder.set_finished(cases::Step::kMat);
   console.say(fmt::format("mat: {} rows, {} strands -> {}", journey.mat.layers.size(), journey.panel.strands.size(),
                           file.string()));
-  for (const auto& line : composition(io::weigh(journey.c, journey.mat))) console.say("mat: " + line);
+  for (const auto& line : composition(cases::weigh(journey.c, journey.mat))) console.say("mat: " + line);
 }
 
 }  // namespace strandlab::app

@@ -10,7 +10,7 @@
 namespace strandlab::app {
 
 struct Journey {
-  io::Case c;
+  cases::Case c;
   mat::Mat mat;
   Panel<2> panel;  // before pressing
   io::RunFolder folder;
@@ -19,7 +19,7 @@ struct Journey {
 // Reads and checks the case for all steps up to `last`, opens its run folder (with --force the steps from `first` on
 // start again) and takes the steps; an exception that ends them is logged. Throws InputError with nothing written for
 // bad input.
-void travel(const CaseArguments& arguments, io::Step first, io::Step last,
+void travel(const CaseArguments& arguments, cases::Step first, cases::Step last,
             const std::function<void(Journey&, Console&)>& steps);
 
 // Throws InputError, with the remedy, where a panel of the finished pressing is no longer there.

@@ -9,9 +9,9 @@ namespace strandlab::app {
 namespace {
 
 void make(const CaseArguments& arguments) {
-  travel(arguments, io::Step::kMat, io::Step::kMat, [](Journey& journey, Console& console) {
+  travel(arguments, cases::Step::kMat, cases::Step::kMat, [](Journey& journey, Console& console) {
     const bool done =
-        journey.folder.finished(io::Step::kMat) && journey.folder.missing(io::Step::kMat, journey.c).empty();
+        journey.folder.finished(cases::Step::kMat) && journey.folder.missing(cases::Step::kMat, journey.c).empty();
     do_mat(journey, console);
     if (done) console.say("mat: already in " + journey.folder.path().string());
   });

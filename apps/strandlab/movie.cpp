@@ -17,10 +17,10 @@
 
 #include "commands.hpp"
 #include "console.hpp"
+#include "strandlab/case/case.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/files/atomic_file.hpp"
-#include "strandlab/io/case.hpp"
 #include "strandlab/io/run_folder.hpp"
 #include "strandlab/report/report_data.hpp"
 #include "strandlab/report/section_picture.hpp"

@@ -12,8 +12,8 @@
 #include "duration.hpp"
 #include "journey.hpp"
 #include "profile_bins.hpp"
+#include "strandlab/case/estimate.hpp"
 #include "strandlab/core/error.hpp"
-#include "strandlab/io/case_estimate.hpp"
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/io/vtk.hpp"
 #include "strandlab/report/density_profiles.hpp"
@@ -37,7 +37,7 @@ std::string progress_line(const press::Progress& p) {
 
 // Files of the panel at each compaction and the checkpoints to go on from.
 press::Sink<2> make_sink(const Journey& journey, const io::CheckpointStore& store, Console& console) {
-  const auto hash = io::case_hash(journey.c, io::Step::kPress);
+  const auto hash = cases::case_hash(journey.c, cases::Step::kPress);
   const auto& folder = journey.folder;
   const auto compactions = journey.c.schedule.compactions;
   press::Sink<2> sink;
@@ -83,7 +83,7 @@ nlohmann::json summary(const press::Outcome<2>& outcome, std::size_t particles, 
 }
 
 std::vector<Panel<2>> read_panels(const Journey& journey) {
-  const auto hash = io::case_hash(journey.c, io::Step::kPress);
+  const auto hash = cases::case_hash(journey.c, cases::Step::kPress);
   std::vector<Panel<2>> panels;
   for (const double compaction : journey.c.schedule.compactions) {
     panels.push_back(io::read_panel<2>(journey.folder.panel_file(compaction), hash));
@@ -138,7 +138,7 @@ void write_profiles(Journey& journey, const std::vector<Panel<2>>& panels, Conso
   report::profile_table(profiles).write(folder.file("profile.csv"));
   report::profile_summary_table(profiles).write(folder.file("profile_summary.csv"));
   warn_if(console, report::plot_density_profiles(profiles, folder.file("pictures") / "density_profile.png"));
-  folder.record(io::Step::kPress)["density_profiles"] = profile_summaries(profiles);
+  folder.record(cases::Step::kPress)["density_profiles"] = profile_summaries(profiles);
 }
 
 // Everything that follows from the panels and the records of the pressing; without records, what follows from the
@@ -163,16 +163,16 @@ void write_report(Journey& journey, const std::vector<press::Record>& records, c
     auto findings = report::pressing_findings(records, warnings);
     const auto shape = report::shape_findings(shapes);
     findings.insert(findings.end(), shape.begin(), shape.end());
-    journey.folder.record(io::Step::kPress)["findings"] = report::to_json(findings);
+    journey.folder.record(cases::Step::kPress)["findings"] = report::to_json(findings);
     warn_if(console, report::plot_stress(records, folder.file("pictures") / "stress.png"));
   }
   warn_if(console, report::plot_grain_angles(shapes, folder.file("pictures") / "grain_angles.png"));
   warn_if(console, report::plot_thickness_strains(shapes, folder.file("pictures") / "thickness_strains.png"));
 }
 
-mpm::Options engine_options(const io::Case& c) {
+mpm::Options engine_options(const cases::Case& c) {
   auto options = c.mpm;
-  options.threads = io::thread_count(c);
+  options.threads = cases::thread_count(c);
   options.profile = true;
   return options;
 }
@@ -183,7 +183,7 @@ void make_folders(const io::RunFolder& folder) {
 
 // The records of a finished pressing, from its last checkpoint; none where it has gone.
 std::vector<press::Record> last_records(const Journey& journey) {
-  const io::CheckpointStore store(journey.folder.path(), io::case_hash(journey.c, io::Step::kPress));
+  const io::CheckpointStore store(journey.folder.path(), cases::case_hash(journey.c, cases::Step::kPress));
   const auto last = store.load<2>(nullptr);
   const bool complete = last && last->snapshots_done == static_cast<int>(journey.c.schedule.compactions.size());
   return complete ? last->records : std::vector<press::Record>{};
@@ -192,7 +192,7 @@ std::vector<press::Record> last_records(const Journey& journey) {
 // Tables that are missing of a finished pressing follow from its panels, press.csv from its last checkpoint.
 void restore_tables(Journey& journey, Console& console) {
   auto& folder = journey.folder;
-  const auto missing = folder.missing(io::Step::kPress, journey.c);
+  const auto missing = folder.missing(cases::Step::kPress, journey.c);
   if (missing.empty()) return;
   refuse_missing_panels(journey);
   std::vector<press::Record> records;
@@ -206,16 +206,16 @@ void restore_tables(Journey& journey, Console& console) {
     }
   }
   console.say(fmt::format("press: made again, as missing: {}", fmt::join(missing, ", ")));
-  folder.forget(io::Step::kPage);
+  folder.forget(cases::Step::kPage);
   make_folders(folder);
   if (!records.empty()) report::press_table(records).write(folder.file("press.csv"));
-  write_report(journey, records, folder.record(io::Step::kPress).value("warnings", std::vector<std::string>{}),
+  write_report(journey, records, folder.record(cases::Step::kPress).value("warnings", std::vector<std::string>{}),
                console);
   folder.save();
 }
 
 void press_alone(const CaseArguments& arguments) {
-  travel(arguments, io::Step::kPress, io::Step::kPress, [](Journey& journey, Console& console) {
+  travel(arguments, cases::Step::kPress, cases::Step::kPress, [](Journey& journey, Console& console) {
     do_mat(journey, console);
     do_press(journey, console);
   });
@@ -225,25 +225,25 @@ void press_alone(const CaseArguments& arguments) {
 
 void do_press(Journey& journey, Console& console) {
   auto& folder = journey.folder;
-  if (folder.finished(io::Step::kPress)) {
+  if (folder.finished(cases::Step::kPress)) {
     restore_tables(journey, console);
     console.say(fmt::format("press: already done in {}", folder.path().string()));
     return;
   }
-  const io::CheckpointStore store(folder.path(), io::case_hash(journey.c, io::Step::kPress));
+  const io::CheckpointStore store(folder.path(), cases::case_hash(journey.c, cases::Step::kPress));
   std::vector<std::string> warnings;
   const auto resume = store.load<2>(&warnings);
   console.log_to(folder.file("log.txt"));
   for (const auto& warning : warnings) console.warn(warning);
-  for (const auto& line : io::derived_constants(journey.c)) console.say(line);
+  for (const auto& line : cases::derived_constants(journey.c)) console.say(line);
   if (journey.c.hotpress.given)
     console.warn("the case has [hotpress], but this pressing is cold; strandlab hotpress presses its mat hot");
-  const int threads = io::thread_count(journey.c);
-  const auto particles = io::estimate(journey.c, journey.panel).particles;
+  const int threads = cases::thread_count(journey.c);
+  const auto particles = cases::estimate(journey.c, journey.panel).particles;
   console.say(resume ? fmt::format("press: going on from compaction {:.4f}", resume->panel.compaction())
                      : fmt::format("press: {} particles on {} thread(s)", particles, threads));
-  folder.record(io::Step::kPress)["started"] = true;
-  folder.forget(io::Step::kPage);
+  folder.record(cases::Step::kPress)["started"] = true;
+  folder.forget(cases::Step::kPage);
   make_folders(folder);
 
   const auto setup = press::setup(journey.panel, journey.c.grid, journey.c.sides, engine_options(journey.c));
@@ -252,8 +252,8 @@ void do_press(Journey& journey, Console& console) {
   for (const auto& warning : outcome.warnings) console.warn(warning);
   report::press_table(outcome.records).write(folder.file("press.csv"));
   write_report(journey, outcome.records, outcome.warnings, console);
-  folder.record(io::Step::kPress).update(summary(outcome, particles, threads));
-  folder.set_finished(io::Step::kPress);
+  folder.record(cases::Step::kPress).update(summary(outcome, particles, threads));
+  folder.set_finished(cases::Step::kPress);
   console.say(fmt::format("press: {} steps in {}, {:.1f} M particle-steps/s -> {}", outcome.steps,
                           duration(outcome.wall_s), 1e-6 * outcome.particle_steps_per_s,
                           folder.file("press.csv").string()));

@@ -18,10 +18,10 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "profile_bins.hpp"
+#include "strandlab/case/write.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/files/atomic_file.hpp"
-#include "strandlab/io/case_write.hpp"
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/report/density_profiles.hpp"
 
@@ -41,7 +41,7 @@ struct Arguments {
 
 struct Run {
   fs::path folder;
-  io::Case c;
+  cases::Case c;
 };
 
 std::string name_of_folder(const fs::path& folder) {
@@ -57,13 +57,13 @@ Run open_run(const fs::path& folder) {
                     "`strandlab press` has filled",
                     folder.string()));
   }
-  return {folder, io::read_case(folder / "case.toml")};
+  return {folder, cases::read_case(folder / "case.toml")};
 }
 
 // Replicates are runs of one case with other random mats: everything else that the pressing depends on is the same.
 void refuse_other_cases(const std::vector<Run>& runs) {
   const auto lines = [](const Run& run) {
-    auto all = io::identity(run.c, io::Step::kPress);
+    auto all = cases::identity(run.c, cases::Step::kPress);
     std::erase_if(
         all, [](const std::string& line) { return line.rfind("run.seed", 0) == 0 || line.rfind("mat.file", 0) == 0; });
     return all;
@@ -108,7 +108,7 @@ std::vector<std::string> names_of(const std::vector<Run>& runs) {
 
 report::Replicate profiles_of(const Run& run, const std::string& name, int bins) {
   report::Replicate replicate{name, {}};
-  const auto hash = io::case_hash(run.c, io::Step::kPress);
+  const auto hash = cases::case_hash(run.c, cases::Step::kPress);
   for (const double compaction : run.c.schedule.compactions) {
     const auto file = run.folder / "panels" / fmt::format("panel_{}.h5", compaction);
     if (!fs::exists(file)) {

@@ -15,10 +15,10 @@ namespace {
 // The report follows from the files that are there: a run does not fail for the want of its page.
 void do_report(Journey& journey, Console& console) {
   auto& folder = journey.folder;
-  if (folder.finished(io::Step::kPage) && folder.missing(io::Step::kPage, journey.c).empty()) return;
+  if (folder.finished(cases::Step::kPage) && folder.missing(cases::Step::kPage, journey.c).empty()) return;
   try {
     const auto page = write_report_page(folder.path());
-    folder.set_finished(io::Step::kPage);
+    folder.set_finished(cases::Step::kPage);
     console.say(fmt::format("report: {}", page.string()));
   } catch (const std::exception& e) {
     console.warn(fmt::format("no report.html: {}", e.what()));
@@ -27,14 +27,14 @@ void do_report(Journey& journey, Console& console) {
 
 // Whether all results but the page are there.
 bool is_done(const Journey& journey) {
-  const auto there = [&](io::Step step) {
+  const auto there = [&](cases::Step step) {
     return journey.folder.finished(step) && journey.folder.missing(step, journey.c).empty();
   };
-  return there(io::Step::kMat) && there(io::Step::kPress) && there(io::Step::kTest);
+  return there(cases::Step::kMat) && there(cases::Step::kPress) && there(cases::Step::kTest);
 }
 
 void run(const CaseArguments& arguments) {
-  travel(arguments, io::Step::kMat, io::Step::kPage, [](Journey& journey, Console& console) {
+  travel(arguments, cases::Step::kMat, cases::Step::kPage, [](Journey& journey, Console& console) {
     const bool done = is_done(journey);
     if (!done) {
       do_mat(journey, console);

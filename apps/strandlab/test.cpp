@@ -173,7 +173,7 @@ void refuse_if_none_is_testable(const Json& states) {
 void test_state(Journey& journey, const Panel<2>& panel, double compaction, Console& console) {
   auto& folder = journey.folder;
   const auto state = measure_state(journey, panel, compaction, console);
-  auto& states = folder.record(io::Step::kTest)["states"];
+  auto& states = folder.record(cases::Step::kTest)["states"];
   states.push_back(state);
   report::moduli_table(moduli_of(states)).write(folder.file("moduli.csv"));
   folder.save();
@@ -182,37 +182,37 @@ void test_state(Journey& journey, const Panel<2>& panel, double compaction, Cons
 // Tables that are missing of finished tests follow from the record.
 void restore_tables(Journey& journey, Console& console) {
   auto& folder = journey.folder;
-  const auto missing = folder.missing(io::Step::kTest, journey.c);
+  const auto missing = folder.missing(cases::Step::kTest, journey.c);
   if (missing.empty()) return;
   console.say(fmt::format("test: made again, as missing: {}", fmt::join(missing, ", ")));
-  folder.forget(io::Step::kPage);
-  const auto moduli = moduli_of(folder.record(io::Step::kTest)["states"]);
+  folder.forget(cases::Step::kPage);
+  const auto moduli = moduli_of(folder.record(cases::Step::kTest)["states"]);
   report::moduli_table(moduli).write(folder.file("moduli.csv"));
   write_plots(journey, moduli, console);
 }
 
 void test_alone(const CaseArguments& arguments) {
-  travel(arguments, io::Step::kTest, io::Step::kTest, do_test);
+  travel(arguments, cases::Step::kTest, cases::Step::kTest, do_test);
 }
 
 }  // namespace
 
 void do_test(Journey& journey, Console& console) {
   auto& folder = journey.folder;
-  if (folder.finished(io::Step::kTest)) {
+  if (folder.finished(cases::Step::kTest)) {
     restore_tables(journey, console);
     console.say(fmt::format("test: already done, {}", folder.file("moduli.csv").string()));
     return;
   }
   refuse_missing_panels(journey);
-  const auto hash = io::case_hash(journey.c, io::Step::kPress);
+  const auto hash = cases::case_hash(journey.c, cases::Step::kPress);
   std::vector<Panel<2>> panels;
   for (const double compaction : journey.c.schedule.compactions) {
     panels.push_back(io::read_panel<2>(folder.panel_file(compaction), hash));
   }
   console.log_to(folder.file("log.txt"));
-  folder.forget(io::Step::kPage);
-  auto& states = folder.record(io::Step::kTest)["states"];
+  folder.forget(cases::Step::kPage);
+  auto& states = folder.record(cases::Step::kTest)["states"];
   if (states.is_null()) states = Json::array();
   for (auto i = states.size(); i < panels.size(); ++i) {
     const double compaction = journey.c.schedule.compactions[i];
@@ -222,11 +222,11 @@ void do_test(Journey& journey, Console& console) {
   }
   double wall_s = 0;
   for (const auto& state : states) wall_s += state.at("wall_s").get<double>();
-  folder.record(io::Step::kTest)["wall_s"] = wall_s;
+  folder.record(cases::Step::kTest)["wall_s"] = wall_s;
   refuse_if_none_is_testable(states);
   write_plots(journey, moduli_of(states), console);
-  folder.record(io::Step::kTest)["findings"] = report::to_json(findings_of(states));
-  folder.set_finished(io::Step::kTest);
+  folder.record(cases::Step::kTest)["findings"] = report::to_json(findings_of(states));
+  folder.set_finished(cases::Step::kTest);
   console.say(fmt::format("test: {} moduli -> {}", moduli_of(states).size(), folder.file("moduli.csv").string()));
 }
 

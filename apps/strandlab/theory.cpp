@@ -9,9 +9,9 @@
 
 #include "commands.hpp"
 #include "console.hpp"
+#include "strandlab/case/case.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/files/csv.hpp"
-#include "strandlab/io/case.hpp"
 #include "strandlab/theory/estimate.hpp"
 #include "theory_rows.hpp"
 
@@ -27,10 +27,10 @@ struct Arguments {
 
 // The question a case asks, with what the flags change.
 theory::Question question_of(const Arguments& a) {
-  const auto c = a.file.empty() ? io::ready_case("osb") : io::read_case(a.file, a.overrides);
+  const auto c = a.file.empty() ? cases::ready_case("osb") : cases::read_case(a.file, a.overrides);
   if (a.file.empty() && !a.overrides.empty()) throw InputError("--set changes keys of a case; give a case file too");
   theory::Question q = a.question;
-  q.rows = theory_rows(c, io::make_mat(c));
+  q.rows = theory_rows(c, cases::make_mat(c));
   q.compactions = a.compactions.empty() ? c.schedule.compactions : a.compactions;
   q.compliances_t = a.compliances.empty() ? c.test.compliance_t_mm_per_MPa : a.compliances;
   for (double& compliance : q.compliances_t) compliance = std::max(compliance, 0.0);  // as the virtual tests take it

@@ -35,18 +35,18 @@ std::vector<theory::Piece> pieces_of(const mat::Mat& mat, std::size_t layer, con
   return pieces;
 }
 
-double spread_of(const io::Case& c, const std::string& name) {
+double spread_of(const cases::Case& c, const std::string& name) {
   const auto kind = std::find_if(c.kinds.begin(), c.kinds.end(), [&](const auto& k) { return k.name == name; });
   return kind == c.kinds.end() ? 0 : kind->angle_spread_deg;
 }
 
 }  // namespace
 
-std::vector<theory::Row> theory_rows(const io::Case& c, const mat::Mat& mat) {
-  const auto kinds = io::strand_kinds(c);
+std::vector<theory::Row> theory_rows(const cases::Case& c, const mat::Mat& mat) {
+  const auto kinds = cases::strand_kinds(c);
   std::vector<theory::Row> rows;
   if (c.mat_file.empty()) {
-    const auto layup = io::layup(c);
+    const auto layup = cases::layup(c);
     for (const auto& given : layup.rows) {
       rows.push_back(row_of_kind(kinds, given.kind));
       rows.back().statistics = given.statistics;
@@ -55,7 +55,7 @@ std::vector<theory::Row> theory_rows(const io::Case& c, const mat::Mat& mat) {
     }
     return rows;
   }
-  const auto woods = io::kinds_and_materials(c);
+  const auto woods = cases::kinds_and_materials(c);
   for (std::size_t i = 0; i < mat.layers.size(); ++i) {
     rows.push_back(row_of_kind(kinds, mat.layers[i].role));
     rows.back().statistics = statistics_of(mat.layers[i], mat.length_mm);

@@ -3,14 +3,14 @@
 
 #include <vector>
 
-#include "strandlab/io/case.hpp"
+#include "strandlab/case/case.hpp"
 #include "strandlab/theory/models.hpp"
 
 namespace strandlab::app {
 
 // Rows bottom to top with material, thickness, grain angles and strand statistics: those of the case's layup, or, for a
 // case with a mat file, of `mat`, which was read from it: the mean strand length of each of its rows, the gap that
-// gives the row's solid fraction, and material and angle of each strand. Throws as io::layup().
-std::vector<theory::Row> theory_rows(const io::Case& c, const mat::Mat& mat);
+// gives the row's solid fraction, and material and angle of each strand. Throws as cases::layup().
+std::vector<theory::Row> theory_rows(const cases::Case& c, const mat::Mat& mat);
 
 }  // namespace strandlab::app

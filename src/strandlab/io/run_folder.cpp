@@ -24,37 +24,37 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr std::array kSteps{Step::kMat, Step::kPress, Step::kTest, Step::kPage};
+constexpr std::array kSteps{cases::Step::kMat, cases::Step::kPress, cases::Step::kTest, cases::Step::kPage};
 
-const char* name_of_step(Step step) {
+const char* name_of_step(cases::Step step) {
   static constexpr std::array names{"mat", "press", "test", "page"};
   return names[static_cast<std::size_t>(step)];
 }
 
 // Files of a step that later ones and the user count on.
-std::vector<std::string> tables_of(Step step) {
+std::vector<std::string> tables_of(cases::Step step) {
   switch (step) {
-    case Step::kMat:
+    case cases::Step::kMat:
       return {"mat.json"};
-    case Step::kPress:
+    case cases::Step::kPress:
       return {"press.csv", "morphology.csv", "histograms.csv", "profile.csv", "profile_summary.csv"};
-    case Step::kTest:
+    case cases::Step::kTest:
       return {"moduli.csv", "theory.csv"};
-    case Step::kPage:
+    case cases::Step::kPage:
       break;
   }
   return {"report.html"};
 }
 
 // Files and folders that a step leaves.
-std::vector<std::string> results_of(Step step) {
+std::vector<std::string> results_of(cases::Step step) {
   auto names = tables_of(step);
   const auto add = [&names](std::initializer_list<const char*> more) {
     names.insert(names.end(), more.begin(), more.end());
   };
-  if (step == Step::kPress)
+  if (step == cases::Step::kPress)
     add({"checkpoint.h5", "checkpoint.previous.h5", "panels", "frames", "paraview", "pictures"});
-  if (step == Step::kTest) add({"plots", "glue_lines"});
+  if (step == cases::Step::kTest) add({"plots", "glue_lines"});
   return names;
 }
 
@@ -122,8 +122,8 @@ void save_record(const Json& record, const fs::path& folder) {
   files::write_atomically(folder / "run.json", record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-std::vector<std::string> all_lines(const Case& c) {
-  return identity(c, Step::kTest);
+std::vector<std::string> all_lines(const cases::Case& c) {
+  return cases::identity(c, cases::Step::kTest);
 }
 
 // First lines in which two cases differ, up to three: "press.speed_m_s = 8 there, 16 here".
@@ -150,26 +150,26 @@ std::string differences(const std::vector<std::string>& there, const std::vector
 }
 
 // First step whose identity lines are not those of the record.
-Step first_changed(const std::vector<std::string>& recorded, const Case& c) {
+cases::Step first_changed(const std::vector<std::string>& recorded, const cases::Case& c) {
   for (const auto step : kSteps) {
-    for (const auto& line : identity(c, step)) {
+    for (const auto& line : cases::identity(c, step)) {
       if (std::find(recorded.begin(), recorded.end(), line) == recorded.end()) return step;
     }
   }
   // Lines were only taken away: a kind or a material of the mat.
-  return Step::kMat;
+  return cases::Step::kMat;
 }
 
 }  // namespace
 
-RunFolder::RunFolder(fs::path folder, const Case& c, Step first, bool force, double needed_bytes)
+RunFolder::RunFolder(fs::path folder, const cases::Case& c, cases::Step first, bool force, double needed_bytes)
     : folder_(std::move(folder)) {
   refuse_unwritable(folder_, needed_bytes);
   refuse_foreign_folder();
   const bool exists = fs::exists(file("run.json"));
   if (exists) record_ = read_record(file("run.json"));
   if (exists && !force) refuse_other_case(c);
-  if (first == Step::kTest) refuse_unpressed(exists, c);
+  if (first == cases::Step::kTest) refuse_unpressed(exists, c);
   files::make_folder(folder_);
   lock_ = lock_folder(folder_, LOCK_EX);
   if (exists && force) {
@@ -204,7 +204,7 @@ fs::path RunFolder::picture_file(const std::string& what, double compaction) con
   return folder_ / "pictures" / fmt::format("{}_{}.png", what, compaction);
 }
 
-Json& RunFolder::record(Step step) {
+Json& RunFolder::record(cases::Step step) {
   return record_["steps"][name_of_step(step)];
 }
 
@@ -212,20 +212,20 @@ void RunFolder::save() const {
   save_record(record_, folder_);
 }
 
-bool RunFolder::finished(Step step) const {
+bool RunFolder::finished(cases::Step step) const {
   const auto& steps = record_.at("steps");
   const auto found = steps.find(name_of_step(step));
   return found != steps.end() && found->value("finished", false);
 }
 
-void RunFolder::set_finished(Step step) {
+void RunFolder::set_finished(cases::Step step) {
   record(step)["finished"] = true;
   save();
 }
 
-std::vector<std::string> RunFolder::missing(Step step, const Case& c) const {
+std::vector<std::string> RunFolder::missing(cases::Step step, const cases::Case& c) const {
   auto names = tables_of(step);
-  if (step == Step::kPress) {
+  if (step == cases::Step::kPress) {
     for (const double compaction : c.schedule.compactions)
       names.push_back(panel_file(compaction).lexically_relative(folder_).string());
   }
@@ -248,7 +248,7 @@ void RunFolder::refuse_foreign_folder() const {
   if (error) throw InputError(fmt::format("{}: cannot read this folder: {}", folder_.string(), error.message()));
 }
 
-void RunFolder::refuse_other_case(const Case& c) const {
+void RunFolder::refuse_other_case(const cases::Case& c) const {
   const auto recorded = record_["case"].get<std::vector<std::string>>();
   const auto here = all_lines(c);
   if (recorded == here) return;
@@ -259,27 +259,27 @@ void RunFolder::refuse_other_case(const Case& c) const {
 }
 
 // A command that only tests cannot press: it must find the panels of this case, and --force must not cost them.
-void RunFolder::refuse_unpressed(bool exists, const Case& c) const {
-  if (!exists || !finished(Step::kPress)) {
+void RunFolder::refuse_unpressed(bool exists, const cases::Case& c) const {
+  if (!exists || !finished(cases::Step::kPress)) {
     throw InputError(
         fmt::format("{}: holds no pressed panel yet: strandlab press (or run) comes first", folder_.string()));
   }
   const auto recorded = record_["case"].get<std::vector<std::string>>();
   const auto here = all_lines(c);
-  if (recorded == here || first_changed(recorded, c) == Step::kTest) return;
+  if (recorded == here || first_changed(recorded, c) == cases::Step::kTest) return;
   throw InputError(
       fmt::format("{}: holds the pressed panels of another case ({}), which strandlab test cannot press; strandlab run "
                   "--force replaces them, or choose another folder with -o",
                   folder_.string(), differences(recorded, here)));
 }
 
-void RunFolder::forget(Step first) {
+void RunFolder::forget(cases::Step first) {
   erase_steps(first);
   save();
   remove_leftovers();
 }
 
-void RunFolder::erase_steps(Step first) {
+void RunFolder::erase_steps(cases::Step first) {
   for (const auto step : kSteps) {
     if (step >= first) record_["steps"].erase(name_of_step(step));
   }
@@ -299,12 +299,12 @@ void RunFolder::remove_leftovers() const {
   for (const auto& temporary : temporaries) fs::remove(temporary);
 }
 
-void RunFolder::write_case(const Case& c) {
+void RunFolder::write_case(const cases::Case& c) {
   record_["strandlab"] = version();
   record_["case_name"] = as_text(c.name);
   record_["case"] = all_lines(c);
   save();
-  files::write_atomically(file("case.toml"), resolved_text(c));
+  files::write_atomically(file("case.toml"), cases::resolved_text(c));
 }
 
 Json read_run_record(const fs::path& folder) {
@@ -322,7 +322,7 @@ void write_page(const fs::path& folder, const std::function<void()>& write) {
   } const lock{lock_folder(folder, LOCK_SH)};
   auto record = read_record(folder / "run.json");
   write();
-  record["steps"][name_of_step(Step::kPage)]["finished"] = true;
+  record["steps"][name_of_step(cases::Step::kPage)]["finished"] = true;
   save_record(record, folder);
 }
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "strandlab/io/case.hpp"
-#include "strandlab/io/case_write.hpp"
+#include "strandlab/case/case.hpp"
+#include "strandlab/case/write.hpp"
 
 namespace strandlab::io {
 
@@ -19,7 +19,7 @@ class RunFolder {
   // nothing written, for a folder that holds something else or another case's results (without `force`), that may not
   // be written, whose panels a command that starts at the test would need but does not find pressed, has less than
   // `needed_bytes` of space, or is in use by another run.
-  RunFolder(std::filesystem::path folder, const Case& c, Step first, bool force, double needed_bytes);
+  RunFolder(std::filesystem::path folder, const cases::Case& c, cases::Step first, bool force, double needed_bytes);
   ~RunFolder();
   RunFolder(RunFolder&& other) noexcept;
   RunFolder& operator=(RunFolder&&) = delete;
@@ -37,24 +37,24 @@ class RunFolder {
 
   // run.json: what is known of the run; save() replaces the file atomically.
   nlohmann::json& record() { return record_; }
-  nlohmann::json& record(Step step);
+  nlohmann::json& record(cases::Step step);
   void save() const;
 
-  bool finished(Step step) const;
-  void set_finished(Step step);
+  bool finished(cases::Step step) const;
+  void set_finished(cases::Step step);
   // Tables and panels of a finished step of this case that are no longer in the folder, by name.
-  std::vector<std::string> missing(Step step, const Case& c) const;
+  std::vector<std::string> missing(cases::Step step, const cases::Case& c) const;
   // The steps from `first` on are undone and what they left is removed. A step does this to the page before it changes
   // what the page shows, so that no page is ever taken for that of other results.
-  void forget(Step first);
+  void forget(cases::Step first);
 
  private:
   void refuse_foreign_folder() const;
-  void refuse_other_case(const Case& c) const;
-  void refuse_unpressed(bool exists, const Case& c) const;
-  void erase_steps(Step first);
+  void refuse_other_case(const cases::Case& c) const;
+  void refuse_unpressed(bool exists, const cases::Case& c) const;
+  void erase_steps(cases::Step first);
   void remove_leftovers() const;
-  void write_case(const Case& c);
+  void write_case(const cases::Case& c);
 
   std::filesystem::path folder_;
   nlohmann::json record_;

@@ -9,10 +9,10 @@
 #include <sstream>
 #include <string>
 
+#include "strandlab/case/case.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/files/json_text.hpp"
-#include "strandlab/io/case.hpp"
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/io/run_folder.hpp"
 #include "strandlab/report/frames.hpp"
@@ -50,8 +50,8 @@ Json read_object(const fs::path& file, const std::string& what) {
 }
 
 // The case without the files it once came from: they may have gone since, and the folder holds what was in them.
-io::Case read_run_case(const fs::path& folder) {
-  return io::read_case(folder / "case.toml", {"glue.from_bondline=\"\"", "glue.group=\"\""});
+cases::Case read_run_case(const fs::path& folder) {
+  return cases::read_case(folder / "case.toml", {"glue.from_bondline=\"\"", "glue.group=\"\""});
 }
 
 Json describe(const wood::Material& m) {
@@ -65,14 +65,14 @@ Json describe(const wood::Material& m) {
 }
 
 // Materials of the case's kinds, and those that strands of a mat file name beside them.
-std::vector<wood::Material> materials_of(const io::Case& c, const Json& record) {
+std::vector<wood::Material> materials_of(const cases::Case& c, const Json& record) {
   std::vector<wood::Material> materials, known = wood::library();
   const auto add = [&materials](const wood::Material& m) {
     const auto same = [&](const wood::Material& other) { return other.name == m.name; };
     if (std::none_of(materials.begin(), materials.end(), same)) materials.push_back(m);
   };
-  for (const auto& kind : io::strand_kinds(c)) add(kind.material);
-  for (const auto& kind : io::kinds_and_materials(c)) known.insert(known.begin(), kind.material);
+  for (const auto& kind : cases::strand_kinds(c)) add(kind.material);
+  for (const auto& kind : cases::kinds_and_materials(c)) known.insert(known.begin(), kind.material);
   const Json::json_pointer used("/mat/weight_fraction_by_material");
   if (!record.contains(used)) return materials;
   for (const auto& [name, fraction] : record[used].items()) {
@@ -83,9 +83,9 @@ std::vector<wood::Material> materials_of(const io::Case& c, const Json& record) 
 }
 
 // Sizes are the mat's, not the case's: a mat file has its own.
-Json describe(const io::Case& c, const Json& record) {
+Json describe(const cases::Case& c, const Json& record) {
   Json kinds = Json::array(), materials = Json::array();
-  const auto strand_kinds = io::strand_kinds(c);
+  const auto strand_kinds = cases::strand_kinds(c);
   for (std::size_t i = 0; i < strand_kinds.size(); ++i) {
     const auto& kind = strand_kinds[i];
     kinds.push_back({{"name", kind.name},

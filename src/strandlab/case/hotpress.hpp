@@ -16,7 +16,7 @@ struct Settings;
 struct PressedMat;
 }  // namespace strandlab::hotpress
 
-namespace strandlab::io {
+namespace strandlab::cases {
 
 struct Case;
 
@@ -61,4 +61,4 @@ hotpress::PressedMat pressed_mat(const Case& c, const mat::Mat& mat);
 // Built-in resins and those of the case.
 std::vector<std::string> resin_names(const Case& c);
 
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

@@ -1,6 +1,6 @@
 // What `strandlab check` says a case will cost, against what was measured (docs/performance.md) and what the engine
 // takes.
-#include "strandlab/io/case_estimate.hpp"
+#include "strandlab/case/estimate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <functional>
 
-#include "case_samples.hpp"
+#include "samples.hpp"
+#include "strandlab/case/estimate.hpp"
+#include "strandlab/case/keys.hpp"
+#include "strandlab/case/write.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
-#include "strandlab/io/case_estimate.hpp"
-#include "strandlab/io/case_keys.hpp"
-#include "strandlab/io/case_write.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace strandlab::io {

@@ -1,4 +1,4 @@
-#include "strandlab/io/case_estimate.hpp"
+#include "strandlab/case/estimate.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/free_memory.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 namespace {
 
 // Costs as measured on the reference machine (docs/performance.md).
@@ -131,4 +131,4 @@ Estimate estimate(const Case& c, const Panel<2>& panel) {
   return e;
 }
 
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

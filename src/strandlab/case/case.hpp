@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "strandlab/io/hotpress_case.hpp"
+#include "strandlab/case/hotpress.hpp"
 #include "strandlab/mat/form.hpp"
 #include "strandlab/mpm/engine.hpp"
 #include "strandlab/panel/panel.hpp"
 #include "strandlab/press/press.hpp"
 #include "strandlab/vtest/vtest.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 
 // [kinds.NAME]: a kind of strand as the case names it.
 struct KindSettings {
@@ -100,4 +100,4 @@ std::vector<std::string> derived_constants(const Case& c);
 // the memory that is free.
 Panel<2> make_panel(const Case& c, const mat::Mat& mat);
 
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

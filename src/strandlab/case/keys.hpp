@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "strandlab/io/case.hpp"
+#include "strandlab/case/case.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, std::vector<std::string>>;
 
@@ -56,4 +56,4 @@ std::string type_name(const Value& value);
 std::string allowed(const Key& key, const Case& c);
 std::string to_toml(const Value& value);
 
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

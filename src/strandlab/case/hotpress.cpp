@@ -1,14 +1,14 @@
-#include "strandlab/io/hotpress_case.hpp"
+#include "strandlab/case/hotpress.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "strandlab/case/case.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/hotpress/cycle.hpp"
-#include "strandlab/io/case.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 namespace {
 
 transfer::Resin find_resin(const Case& c, const std::string& name) {
@@ -121,4 +121,4 @@ hotpress::PressedMat pressed_mat(const Case& c, const mat::Mat& mat) {
   return pressed;
 }
 
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "strandlab/io/case.hpp"
+#include "strandlab/case/case.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 
 // Every key with its value, a case file that reads back to the same case.
 std::string resolved_text(const Case& c);
@@ -28,4 +28,4 @@ std::vector<std::string> identity(const Case& c, Step last);
 // 16 hexadecimal digits that stand for identity() in result files.
 std::string case_hash(const Case& c, Step last);
 
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

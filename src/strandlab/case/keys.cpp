@@ -1,4 +1,4 @@
-#include "strandlab/io/case_keys.hpp"
+#include "strandlab/case/keys.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +12,7 @@
 #include "strandlab/core/text.hpp"
 #include "strandlab/wood/species.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 namespace {
 
 const Range kAny{};
@@ -677,4 +677,4 @@ std::string to_toml(const Value& value) {
   return std::visit(Writer{}, value);
 }
 
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

@@ -13,14 +13,14 @@
 #include <sstream>
 
 #include "strandlab/bondline/analysis.hpp"
+#include "strandlab/case/case.hpp"
+#include "strandlab/case/keys.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/core/text.hpp"
-#include "strandlab/io/case.hpp"
-#include "strandlab/io/case_keys.hpp"
 #include "strandlab/transfer/cure.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 namespace {
 
 namespace fs = std::filesystem;
@@ -668,4 +668,4 @@ Case case_from_text(const std::string& text, const std::string& source, const st
                            with_overrides({parse_toml(text, source), source, true, fs::current_path()}, overrides));
 }
 
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

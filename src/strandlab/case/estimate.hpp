@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-#include "strandlab/io/case.hpp"
+#include "strandlab/case/case.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 
 struct Estimate {
   std::size_t strands = 0;
@@ -36,4 +36,4 @@ void refuse_too_large(const Case& c, const mat::Layup& layup);
 // Threads of a run: what the case says, or one per core of this machine.
 int thread_count(const Case& c);
 
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

@@ -1,4 +1,4 @@
-#include "strandlab/io/case.hpp"
+#include "strandlab/case/case.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,13 +7,13 @@
 #include <charconv>
 #include <cmath>
 
+#include "strandlab/case/estimate.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/core/text.hpp"
-#include "strandlab/io/case_estimate.hpp"
 #include "strandlab/wood/species.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 namespace {
 
 std::vector<std::string> kind_names(const Case& c) {
@@ -176,4 +176,4 @@ Panel<2> make_panel(const Case& c, const mat::Mat& mat) {
   }
 }
 
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

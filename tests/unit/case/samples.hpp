@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "strandlab/io/case.hpp"
-#include "strandlab/io/case_keys.hpp"
+#include "strandlab/case/case.hpp"
+#include "strandlab/case/keys.hpp"
 
 namespace strandlab::io {
 

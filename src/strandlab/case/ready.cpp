@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "strandlab/case/case.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
-#include "strandlab/io/case.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 namespace {
 
 constexpr const char* kFullRows =
@@ -115,4 +115,4 @@ Case ready_case(const std::string& name) {
   return c;
 }
 
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

@@ -1,4 +1,4 @@
-#include "strandlab/io/case_write.hpp"
+#include "strandlab/case/write.hpp"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <cctype>
 #include <cstdint>
 
-#include "strandlab/io/case_keys.hpp"
+#include "strandlab/case/keys.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 namespace {
 
 // "kinds.*" with its * replaced: "kinds.surface".
@@ -165,4 +165,4 @@ std::string case_hash(const Case& c, Step last) {
   return fmt::format("{:016x}", hash);
 }
 
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

@@ -1,5 +1,5 @@
 // Cases as text: round trips, the ready cases of the tree, the reference page, and what identifies a run.
-#include "strandlab/io/case_write.hpp"
+#include "strandlab/case/write.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "case_samples.hpp"
+#include "samples.hpp"
 #include "strandlab/core/error.hpp"
 #include "support/temporary_folder.hpp"
 

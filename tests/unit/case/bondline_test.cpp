@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "strandlab/case/case.hpp"
 #include "strandlab/core/error.hpp"
-#include "strandlab/io/case.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace strandlab::io {
