@@ -3,6 +3,7 @@ add_library(strandlab_flags INTERFACE)
 target_compile_options(strandlab_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
   -fno-math-errno -ffp-contract=fast
+  -fno-semantic-interposition  # position-independent, but our functions call and inline each other as in a program
   # g++ 12 warns of its own AVX-512 intrinsics under Eigen (GCC bug 105593)
   $<$<AND:$<BOOL:${STRANDLAB_NATIVE}>,$<CXX_COMPILER_ID:GNU>>:-Wno-maybe-uninitialized;-Wno-uninitialized>
   $<$<BOOL:${STRANDLAB_NATIVE}>:-march=native>

@@ -60,8 +60,8 @@ std::string cure_line(const Answers& a) {
 
 }  // namespace
 
-CsvTable hotpress_table(const Cycle& cycle) {
-  CsvTable table({"time_s",
+files::CsvTable hotpress_table(const Cycle& cycle) {
+  files::CsvTable table({"time_s",
                   "phase",
                   "gap_mm",
                   "thickness_mm",
@@ -118,8 +118,8 @@ CsvTable hotpress_table(const Cycle& cycle) {
   return table;
 }
 
-CsvTable profiles_table(const Cycle& cycle) {
-  CsvTable table({"time_s", "state", "depth_mm", "T_C", "M", "gas_kPa", "cure", "density_kg_m3"});
+files::CsvTable profiles_table(const Cycle& cycle) {
+  files::CsvTable table({"time_s", "state", "depth_mm", "T_C", "M", "gas_kPa", "cure", "density_kg_m3"});
   const auto& record = cycle.record;
   const double every = (record.back().time - record.front().time) / kProfiles;
   double next = record.front().time;

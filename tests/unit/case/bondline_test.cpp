@@ -7,7 +7,7 @@
 #include "strandlab/core/error.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 namespace {
 
 using test::put;
@@ -61,4 +61,4 @@ TEST_F(CaseBondline, WhatDoesNotFitIsNamed) {
 }
 
 }  // namespace
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

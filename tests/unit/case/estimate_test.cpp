@@ -9,7 +9,7 @@
 
 #include "strandlab/press/press.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 namespace {
 
 // Within a factor of five: an estimate, not a promise.
@@ -66,4 +66,4 @@ TEST(Estimate, OfStepsAndMemoryIsWhatTheEngineTakes) {
 }
 
 }  // namespace
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

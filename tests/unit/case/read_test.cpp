@@ -12,7 +12,7 @@
 #include "strandlab/core/text.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 namespace {
 
 using test::message_of;
@@ -356,4 +356,4 @@ TEST(CaseRead, FilesThatCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

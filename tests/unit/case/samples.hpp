@@ -7,7 +7,7 @@
 #include "strandlab/case/case.hpp"
 #include "strandlab/case/keys.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 
 struct Sample {
   const Key* entry = nullptr;
@@ -64,4 +64,4 @@ inline std::vector<Sample> samples() {
   return list;
 }
 
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

@@ -11,7 +11,7 @@
 #include "strandlab/core/error.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 namespace {
 
 TEST(CaseWrite, ResolvedTextReadsBackToTheSameCase) {
@@ -124,4 +124,4 @@ TEST(CaseWrite, HashOfAStepIgnoresLaterSteps) {
 }
 
 }  // namespace
-}  // namespace strandlab::io
+}  // namespace strandlab::cases

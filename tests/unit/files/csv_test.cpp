@@ -12,7 +12,7 @@
 
 #include "support/temporary_folder.hpp"
 
-namespace strandlab::io {
+namespace strandlab::files {
 namespace {
 
 TEST(Csv, HeaderThenRows) {
@@ -71,4 +71,4 @@ TEST(Csv, WritesAWholeFile) {
 }
 
 }  // namespace
-}  // namespace strandlab::io
+}  // namespace strandlab::files

@@ -16,44 +16,44 @@ using test::TemporaryFolder;
 
 constexpr double kSmall = 1e3;  // bytes that every test machine has free
 
-Case with(const std::string& override_text) {
-  return case_from_text("", "panel.toml", {override_text});
+cases::Case with(const std::string& override_text) {
+  return cases::case_from_text("", "panel.toml", {override_text});
 }
 
-std::string refusal(const std::filesystem::path& folder, const Case& c, double bytes = kSmall) {
-  return message_of<InputError>([&] { RunFolder(folder, c, Step::kMat, false, bytes); });
+std::string refusal(const std::filesystem::path& folder, const cases::Case& c, double bytes = kSmall) {
+  return message_of<InputError>([&] { RunFolder(folder, c, cases::Step::kMat, false, bytes); });
 }
 
 // A folder in which all steps are done.
-void make_finished(const std::filesystem::path& folder, const Case& c) {
-  RunFolder run(folder, c, Step::kMat, false, kSmall);
+void make_finished(const std::filesystem::path& folder, const cases::Case& c) {
+  RunFolder run(folder, c, cases::Step::kMat, false, kSmall);
   std::filesystem::create_directory(run.file("panels"));
   for (const auto* name :
        {"mat.json", "press.csv", "panels/panel_0.h5", "moduli.csv", "theory.csv", "report.html", "notes.txt"})
     put(run.file(name), "x");
-  for (const auto step : {Step::kMat, Step::kPress, Step::kTest, Step::kPage}) run.set_finished(step);
+  for (const auto step : {cases::Step::kMat, cases::Step::kPress, cases::Step::kTest, cases::Step::kPage}) run.set_finished(step);
 }
 
 TEST(RunFolder, KeepsResultsOfTheSameCase) {
   const TemporaryFolder folder;
-  make_finished(folder / "run", Case());
-  Case other_threads;
+  make_finished(folder / "run", cases::Case());
+  cases::Case other_threads;
   other_threads.threads = 7;  // changes no result
-  const RunFolder again(folder / "run", other_threads, Step::kMat, false, kSmall);
-  EXPECT_TRUE(again.finished(Step::kTest));
+  const RunFolder again(folder / "run", other_threads, cases::Step::kMat, false, kSmall);
+  EXPECT_TRUE(again.finished(cases::Step::kTest));
   EXPECT_EQ(test::contents(again.file("moduli.csv")), "x");
 }
 
 TEST(RunFolder, HoldsTheResolvedCase) {
   const TemporaryFolder folder;
   const auto c = with("press.speed_m_s=8");
-  const RunFolder run(folder / "run", c, Step::kMat, false, kSmall);
+  const RunFolder run(folder / "run", c, cases::Step::kMat, false, kSmall);
   EXPECT_EQ(test::contents(run.file("case.toml")), resolved_text(c));
 }
 
 TEST(RunFolder, RefusesAnotherCaseAndSaysWhatDiffers) {
   const TemporaryFolder folder;
-  make_finished(folder / "run", Case());
+  make_finished(folder / "run", cases::Case());
   const auto before = test::contents(folder / "run/run.json");
   const auto message = refusal(folder / "run", with("press.speed_m_s=8"));
   EXPECT_NE(message.find("press.speed_m_s = 16 there, 8 here"), std::string::npos) << message;
@@ -65,18 +65,18 @@ TEST(RunFolder, RefusesAnotherCaseAndSaysWhatDiffers) {
 
 TEST(RunFolder, ForceStartsAgainFromTheFirstStepThatDiffers) {
   const TemporaryFolder folder;
-  make_finished(folder / "run", Case());
+  make_finished(folder / "run", cases::Case());
   {
-    const RunFolder run(folder / "run", with("glue.max_gap_mm=0.2"), Step::kTest, true, kSmall);
-    EXPECT_TRUE(run.finished(Step::kPress));
-    EXPECT_FALSE(run.finished(Step::kTest));
+    const RunFolder run(folder / "run", with("glue.max_gap_mm=0.2"), cases::Step::kTest, true, kSmall);
+    EXPECT_TRUE(run.finished(cases::Step::kPress));
+    EXPECT_FALSE(run.finished(cases::Step::kTest));
     EXPECT_FALSE(std::filesystem::exists(run.file("moduli.csv")));
     EXPECT_FALSE(std::filesystem::exists(run.file("theory.csv")));
     EXPECT_TRUE(std::filesystem::exists(run.file("panels/panel_0.h5")));
   }
-  const RunFolder run(folder / "run", with("press.speed_m_s=8"), Step::kMat, true, kSmall);
-  EXPECT_FALSE(run.finished(Step::kTest));
-  EXPECT_FALSE(run.finished(Step::kPress));
+  const RunFolder run(folder / "run", with("press.speed_m_s=8"), cases::Step::kMat, true, kSmall);
+  EXPECT_FALSE(run.finished(cases::Step::kTest));
+  EXPECT_FALSE(run.finished(cases::Step::kPress));
   EXPECT_FALSE(std::filesystem::exists(run.file("panels")));
   EXPECT_TRUE(std::filesystem::exists(run.file("notes.txt")));  // the user's own files stay
 }
@@ -84,10 +84,10 @@ TEST(RunFolder, ForceStartsAgainFromTheFirstStepThatDiffers) {
 // The test alone cannot press again: it refuses, and the panels stay as they are.
 TEST(RunFolder, ForceOfATestNeverCostsThePanels) {
   const TemporaryFolder folder;
-  make_finished(folder / "run", Case());
+  make_finished(folder / "run", cases::Case());
   const auto before = test::contents(folder / "run/run.json");
   const auto message =
-      message_of<InputError>([&] { RunFolder(folder / "run", with("press.speed_m_s=8"), Step::kTest, true, kSmall); });
+      message_of<InputError>([&] { RunFolder(folder / "run", with("press.speed_m_s=8"), cases::Step::kTest, true, kSmall); });
   EXPECT_NE(message.find("press.speed_m_s = 16 there, 8 here"), std::string::npos) << message;
   EXPECT_EQ(test::contents(folder / "run/run.json"), before);
   EXPECT_EQ(test::contents(folder / "run/panels/panel_0.h5"), "x");
@@ -96,7 +96,7 @@ TEST(RunFolder, ForceOfATestNeverCostsThePanels) {
 TEST(RunFolder, ATestNeedsPressedPanels) {
   const TemporaryFolder folder;
   for (const bool force : {false, true}) {
-    const auto message = message_of<InputError>([&] { RunFolder(folder / "new", Case(), Step::kTest, force, kSmall); });
+    const auto message = message_of<InputError>([&] { RunFolder(folder / "new", cases::Case(), cases::Step::kTest, force, kSmall); });
     EXPECT_NE(message.find("no pressed panel"), std::string::npos) << message;
     EXPECT_EQ(folder.files(), 0U);
   }
@@ -104,22 +104,22 @@ TEST(RunFolder, ATestNeedsPressedPanels) {
 
 TEST(RunFolder, ForceOnTheSameCaseStartsAgainAtTheCommandsStep) {
   const TemporaryFolder folder;
-  make_finished(folder / "run", Case());
-  const RunFolder run(folder / "run", Case(), Step::kPress, true, kSmall);
-  EXPECT_TRUE(run.finished(Step::kMat));
-  EXPECT_FALSE(run.finished(Step::kPress));
-  EXPECT_FALSE(run.finished(Step::kTest));
+  make_finished(folder / "run", cases::Case());
+  const RunFolder run(folder / "run", cases::Case(), cases::Step::kPress, true, kSmall);
+  EXPECT_TRUE(run.finished(cases::Step::kMat));
+  EXPECT_FALSE(run.finished(cases::Step::kPress));
+  EXPECT_FALSE(run.finished(cases::Step::kTest));
 }
 
 TEST(RunFolder, RefusesAFolderThatIsNotARun) {
   const TemporaryFolder folder;
   put(folder / "letter.txt", "dear");
-  EXPECT_NE(refusal(folder.path(), Case()).find("no strandlab run"), std::string::npos);
+  EXPECT_NE(refusal(folder.path(), cases::Case()).find("no strandlab run"), std::string::npos);
   EXPECT_EQ(folder.files(), 1U);
   put(folder / "run.json", "{\"name\": \"something else\"}");
-  EXPECT_NE(refusal(folder.path(), Case()).find("not the record of a strandlab run"), std::string::npos);
+  EXPECT_NE(refusal(folder.path(), cases::Case()).find("not the record of a strandlab run"), std::string::npos);
   put(folder / "run.json", "{\"strandlab\": ");
-  EXPECT_NE(refusal(folder.path(), Case()).find("run.json"), std::string::npos);
+  EXPECT_NE(refusal(folder.path(), cases::Case()).find("run.json"), std::string::npos);
 }
 
 // Whatever stands in run.json, and however deep: at once, and in our words.
@@ -131,38 +131,38 @@ TEST(RunFolder, RefusesARecordThatIsNone) {
                            std::string(R"({"strandlab": "1", "case": [], "steps": {"mat": {"finished": "yes"}}})"),
                            R"({"strandlab": "1", "case": [], "steps": {"mat": {"x": )" + deep + flat + "}}}"}) {
     put(folder / "run.json", text);
-    EXPECT_NE(refusal(folder.path(), Case()).find("the record of a strandlab run"), std::string::npos)
+    EXPECT_NE(refusal(folder.path(), cases::Case()).find("the record of a strandlab run"), std::string::npos)
         << text.substr(0, 80);
   }
   std::filesystem::remove(folder / "run.json");
   std::filesystem::create_directory(folder / "run.json");
-  EXPECT_NE(refusal(folder.path(), Case()).find("the record of a strandlab run"), std::string::npos);
+  EXPECT_NE(refusal(folder.path(), cases::Case()).find("the record of a strandlab run"), std::string::npos);
 }
 
 TEST(RunFolder, RefusesANameThatCannotBe) {
   const TemporaryFolder folder;
   std::filesystem::create_symlink(folder / "loop", folder / "loop");
   for (const auto& name : {std::string("loop"), std::string("loop/run"), std::string(5000, 'x')})
-    EXPECT_NE(refusal(folder / name, Case()).find("cannot be a run folder"), std::string::npos) << name.substr(0, 20);
+    EXPECT_NE(refusal(folder / name, cases::Case()).find("cannot be a run folder"), std::string::npos) << name.substr(0, 20);
 }
 
 TEST(RunFolder, SaysWhatIsMissing) {
   const TemporaryFolder folder;
   const auto c = with("press.compactions=[0, .1]");
   make_finished(folder / "run", c);
-  const RunFolder run(folder / "run", c, Step::kMat, false, kSmall);
-  EXPECT_EQ(run.missing(Step::kMat, c), std::vector<std::string>{});
-  EXPECT_EQ(run.missing(Step::kPress, c), (std::vector<std::string>{"morphology.csv", "histograms.csv", "profile.csv",
+  const RunFolder run(folder / "run", c, cases::Step::kMat, false, kSmall);
+  EXPECT_EQ(run.missing(cases::Step::kMat, c), std::vector<std::string>{});
+  EXPECT_EQ(run.missing(cases::Step::kPress, c), (std::vector<std::string>{"morphology.csv", "histograms.csv", "profile.csv",
                                                                     "profile_summary.csv", "panels/panel_0.1.h5"}));
   std::filesystem::remove(run.file("moduli.csv"));
-  EXPECT_EQ(run.missing(Step::kTest, c), std::vector<std::string>{"moduli.csv"});
+  EXPECT_EQ(run.missing(cases::Step::kTest, c), std::vector<std::string>{"moduli.csv"});
 }
 
 TEST(RunFolder, RemovesWhatAKillLeftHalfWritten) {
   const TemporaryFolder folder;
-  make_finished(folder / "run", Case());
+  make_finished(folder / "run", cases::Case());
   for (const auto* name : {"run/report.html.4711-2.tmp", "run/panels/panel_0.h5.4711-1.tmp"}) put(folder / name, "x");
-  const RunFolder run(folder / "run", Case(), Step::kMat, false, kSmall);
+  const RunFolder run(folder / "run", cases::Case(), cases::Step::kMat, false, kSmall);
   EXPECT_FALSE(std::filesystem::exists(run.file("report.html.4711-2.tmp")));
   EXPECT_FALSE(std::filesystem::exists(run.file("panels/panel_0.h5.4711-1.tmp")));
   EXPECT_TRUE(std::filesystem::exists(run.file("notes.txt")));
@@ -172,28 +172,28 @@ TEST(RunFolder, RemovesWhatAKillLeftHalfWritten) {
 TEST(RunFolder, TakesAnEmptyFolder) {
   const TemporaryFolder folder;
   put(folder / "run.json.tmp", "{");
-  EXPECT_NO_THROW(RunFolder(folder.path(), Case(), Step::kMat, false, kSmall));
+  EXPECT_NO_THROW(RunFolder(folder.path(), cases::Case(), cases::Step::kMat, false, kSmall));
 }
 
 TEST(RunFolder, RefusesWhatCannotBeWritten) {
   const TemporaryFolder folder;
   put(folder / "file", "");
-  EXPECT_NE(refusal(folder / "file/run", Case()).find("is not a folder"), std::string::npos);
+  EXPECT_NE(refusal(folder / "file/run", cases::Case()).find("is not a folder"), std::string::npos);
   const test::ReadOnly read_only(folder.path());
-  EXPECT_NE(refusal(folder / "run", Case()).find("ermission denied"), std::string::npos);
+  EXPECT_NE(refusal(folder / "run", cases::Case()).find("ermission denied"), std::string::npos);
 }
 
 TEST(RunFolder, RefusesADiskWithoutSpace) {
   const TemporaryFolder folder;
-  const auto message = refusal(folder / "run", Case(), 1e18);
+  const auto message = refusal(folder / "run", cases::Case(), 1e18);
   EXPECT_NE(message.find("disk space"), std::string::npos) << message;
   EXPECT_EQ(folder.files(), 0U);
 }
 
 TEST(RunFolder, RefusesAFolderInUse) {
   const TemporaryFolder folder;
-  const RunFolder first(folder / "run", Case(), Step::kMat, false, kSmall);
-  EXPECT_NE(refusal(folder / "run", Case()).find("another strandlab"), std::string::npos);
+  const RunFolder first(folder / "run", cases::Case(), cases::Step::kMat, false, kSmall);
+  EXPECT_NE(refusal(folder / "run", cases::Case()).find("another strandlab"), std::string::npos);
 }
 
 // The page shows the results of all steps: one that is undone takes the page with it, also where it was undone in the
@@ -201,36 +201,36 @@ TEST(RunFolder, RefusesAFolderInUse) {
 TEST(RunFolder, ThePageGoesWithTheResultsItShows) {
   const TemporaryFolder folder;
   for (const bool force : {false, true}) {
-    make_finished(folder / "run", Case());
-    RunFolder run(folder / "run", Case(), Step::kTest, force, kSmall);
+    make_finished(folder / "run", cases::Case());
+    RunFolder run(folder / "run", cases::Case(), cases::Step::kTest, force, kSmall);
     EXPECT_EQ(std::filesystem::exists(run.file("report.html")), !force);
-    run.forget(Step::kPage);
-    EXPECT_FALSE(run.finished(Step::kPage));
+    run.forget(cases::Step::kPage);
+    EXPECT_FALSE(run.finished(cases::Step::kPage));
     EXPECT_FALSE(std::filesystem::exists(run.file("report.html")));
-    EXPECT_EQ(run.finished(Step::kTest), !force);
+    EXPECT_EQ(run.finished(cases::Step::kTest), !force);
   }
 }
 
 // A kill between the last test and the page, or a folder of a version that did not record its page.
 TEST(RunFolder, APageWithoutARecordIsNoResult) {
   const TemporaryFolder folder;
-  make_finished(folder / "run", Case());
+  make_finished(folder / "run", cases::Case());
   auto record = nlohmann::json::parse(test::contents(folder / "run/run.json"));
   record["steps"].erase("page");
   put(folder / "run/run.json", record.dump());
-  const RunFolder run(folder / "run", Case(), Step::kMat, false, kSmall);
-  EXPECT_TRUE(run.finished(Step::kTest));
-  EXPECT_FALSE(run.finished(Step::kPage));
+  const RunFolder run(folder / "run", cases::Case(), cases::Step::kMat, false, kSmall);
+  EXPECT_TRUE(run.finished(cases::Step::kTest));
+  EXPECT_FALSE(run.finished(cases::Step::kPage));
   EXPECT_FALSE(std::filesystem::exists(run.file("report.html")));
 }
 
 TEST(RunFolder, RecordsAPageThatIsMadeByItself) {
   const TemporaryFolder folder;
-  make_finished(folder / "run", Case());
-  RunFolder(folder / "run", Case(), Step::kMat, false, kSmall).forget(Step::kPage);
+  make_finished(folder / "run", cases::Case());
+  RunFolder(folder / "run", cases::Case(), cases::Step::kMat, false, kSmall).forget(cases::Step::kPage);
   write_page(folder / "run", [&] { put(folder / "run/report.html", "page"); });
-  const RunFolder run(folder / "run", Case(), Step::kMat, false, kSmall);
-  EXPECT_TRUE(run.finished(Step::kPage));
+  const RunFolder run(folder / "run", cases::Case(), cases::Step::kMat, false, kSmall);
+  EXPECT_TRUE(run.finished(cases::Step::kPage));
   EXPECT_EQ(test::contents(run.file("report.html")), "page");
   const auto never = [] { FAIL() << "wrote a page"; };
   EXPECT_NE(message_of<InputError>([&] { write_page(folder / "run", never); }).find("another strandlab"),
@@ -241,7 +241,7 @@ TEST(RunFolder, RecordsAPageThatIsMadeByItself) {
 // Several pages may be made at once: none shuts out another.
 TEST(RunFolder, PagesAreMadeAtTheSameTime) {
   const TemporaryFolder folder;
-  make_finished(folder / "run", Case());
+  make_finished(folder / "run", cases::Case());
   bool inner = false;
   write_page(folder / "run", [&] { write_page(folder / "run", [&] { inner = true; }); });
   EXPECT_TRUE(inner);
@@ -250,9 +250,9 @@ TEST(RunFolder, PagesAreMadeAtTheSameTime) {
 // Files of a pressing that was forgotten by --force just before a kill must not be taken for results.
 TEST(RunFolder, RemovesFilesOfStepsItDoesNotKnow) {
   const TemporaryFolder folder;
-  { const RunFolder run(folder / "run", Case(), Step::kMat, false, kSmall); }
+  { const RunFolder run(folder / "run", cases::Case(), cases::Step::kMat, false, kSmall); }
   put(folder / "run/checkpoint.h5", "old");
-  const RunFolder run(folder / "run", Case(), Step::kMat, false, kSmall);
+  const RunFolder run(folder / "run", cases::Case(), cases::Step::kMat, false, kSmall);
   EXPECT_FALSE(std::filesystem::exists(run.file("checkpoint.h5")));
 }
 
