@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "bondline_tables.hpp"
 #include "commands.hpp"
 #include "console.hpp"
 #include "strandlab/bondline/analysis.hpp"
@@ -20,6 +19,7 @@
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/files/atomic_file.hpp"
+#include "strandlab/report/bondline_tables.hpp"
 #include "strandlab/report/gnuplot.hpp"
 
 namespace strandlab::app {

@@ -6,11 +6,11 @@
 
 #include "case_arguments.hpp"
 #include "commands.hpp"
-#include "composition.hpp"
 #include "console.hpp"
-#include "duration.hpp"
 #include "strandlab/case/estimate.hpp"
 #include "strandlab/case/write.hpp"
+#include "strandlab/run/composition.hpp"
+#include "strandlab/run/duration.hpp"
 #include "strandlab/vtest/vtest.hpp"
 
 namespace strandlab::app {

@@ -20,7 +20,7 @@
 #include "strandlab/core/version.hpp"
 #include "strandlab/files/atomic_file.hpp"
 #include "strandlab/files/json_text.hpp"
-#include "strandlab/io/hotpress_results.hpp"
+#include "strandlab/report/hotpress_results.hpp"
 
 namespace strandlab::app {
 namespace {
@@ -74,12 +74,12 @@ void press(const CaseArguments& arguments) {
   fs::remove(folder / "run.json");  // written last again: a kill in between leaves no record beside other results
   c.hotpress.given = true;          // the file shows all keys that were used
   files::write_atomically(folder / "case.toml", cases::resolved_text(c));
-  io::hotpress_table(result.cycle).write(folder / "hotpress.csv");
-  io::profiles_table(result.cycle).write(folder / "transfer_profiles.csv");
+  report::hotpress_table(result.cycle).write(folder / "hotpress.csv");
+  report::profiles_table(result.cycle).write(folder / "transfer_profiles.csv");
   const nlohmann::json record{
-      {"strandlab", version()}, {"git", kGitHash}, {"hotpress", io::to_json(result)}, {"warnings", notes}};
+      {"strandlab", version()}, {"git", kGitHash}, {"hotpress", report::to_json(result)}, {"warnings", notes}};
   files::write_atomically(folder / "run.json", record.dump(2) + "\n");
-  for (const auto& line : io::summary(result)) print("{}\n", printable(line));
+  for (const auto& line : report::summary(result)) print("{}\n", printable(line));
   for (const auto& note : notes) tell(STDERR_FILENO, fmt::format("warning: {}\n", printable(note)));
   print("{}: hotpress.csv, transfer_profiles.csv, run.json\n", printable(folder.string()));
 }

@@ -12,11 +12,11 @@
 #include <sstream>
 #include <thread>
 
-#include "composition.hpp"
 #include "git_hash.hpp"
 #include "strandlab/case/estimate.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/version.hpp"
+#include "strandlab/run/composition.hpp"
 #include "strandlab/vtest/vtest.hpp"
 
 namespace strandlab::app {
@@ -55,7 +55,7 @@ Journey start(const CaseArguments& arguments, cases::Step first, cases::Step las
   if (last >= cases::Step::kTest && c.sides == mpm::Side::kRoller)
     vtest::check_ends(panel, c.schedule.compactions.back());
   const double disk_bytes = cases::estimate(c, panel).disk_bytes;
-  io::RunFolder folder(arguments.run_folder(c), c, first, arguments.force, disk_bytes);
+  run::RunFolder folder(arguments.run_folder(c), c, first, arguments.force, disk_bytes);
   folder.record()["strandlab"] = version();
   folder.record()["git"] = kGitHash;
   if (!folder.record().contains("date"))

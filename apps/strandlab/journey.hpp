@@ -5,7 +5,7 @@
 
 #include "case_arguments.hpp"
 #include "console.hpp"
-#include "strandlab/io/run_folder.hpp"
+#include "strandlab/run/folder.hpp"
 
 namespace strandlab::app {
 
@@ -13,7 +13,7 @@ struct Journey {
   cases::Case c;
   mat::Mat mat;
   Panel<2> panel;  // before pressing
-  io::RunFolder folder;
+  run::RunFolder folder;
 };
 
 // Reads and checks the case for all steps up to `last`, opens its run folder (with --force the steps from `first` on

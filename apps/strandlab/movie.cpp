@@ -21,9 +21,9 @@
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/files/atomic_file.hpp"
-#include "strandlab/io/run_folder.hpp"
-#include "strandlab/report/report_data.hpp"
 #include "strandlab/report/section_picture.hpp"
+#include "strandlab/run/folder.hpp"
+#include "strandlab/run/page.hpp"
 
 namespace strandlab::app {
 namespace {
@@ -116,8 +116,8 @@ void check(const MovieArguments& a, const std::string& extension) {
 // Numbered pictures of all frames, in the same colours. Returns how many.
 std::size_t draw_frames(const MovieArguments& a, const ScratchFolder& scratch) {
   const fs::path folder = a.folder;
-  static_cast<void>(io::read_run_record(folder));
-  const auto frames = report::read_frames(folder);
+  static_cast<void>(run::read_run_record(folder));
+  const auto frames = run::read_frames(folder);
   if (frames.empty()) throw InputError(fmt::format("{}: holds no pressed panel yet", a.folder));
   std::vector<const Panel<2>*> all;
   all.reserve(frames.size());

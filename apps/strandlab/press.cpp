@@ -9,9 +9,7 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "duration.hpp"
 #include "journey.hpp"
-#include "profile_bins.hpp"
 #include "strandlab/case/estimate.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/io/checkpoint.hpp"
@@ -23,6 +21,8 @@
 #include "strandlab/report/plots.hpp"
 #include "strandlab/report/result_tables.hpp"
 #include "strandlab/report/section_picture.hpp"
+#include "strandlab/run/duration.hpp"
+#include "strandlab/run/profile_bins.hpp"
 
 namespace strandlab::app {
 namespace {
@@ -177,7 +177,7 @@ mpm::Options engine_options(const cases::Case& c) {
   return options;
 }
 
-void make_folders(const io::RunFolder& folder) {
+void make_folders(const run::RunFolder& folder) {
   for (const auto* name : {"panels", "frames", "paraview", "pictures"}) fs::create_directories(folder.file(name));
 }
 

@@ -17,13 +17,13 @@
 
 #include "commands.hpp"
 #include "console.hpp"
-#include "profile_bins.hpp"
 #include "strandlab/case/write.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/files/atomic_file.hpp"
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/report/density_profiles.hpp"
+#include "strandlab/run/profile_bins.hpp"
 
 namespace strandlab::app {
 namespace {

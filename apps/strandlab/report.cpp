@@ -11,16 +11,16 @@
 #include "console.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/files/atomic_file.hpp"
-#include "strandlab/io/run_folder.hpp"
 #include "strandlab/report/html.hpp"
-#include "strandlab/report/report_data.hpp"
+#include "strandlab/run/folder.hpp"
+#include "strandlab/run/page.hpp"
 
 namespace strandlab::app {
 
 std::filesystem::path write_report_page(const std::filesystem::path& run_folder, const std::filesystem::path& out) {
   const auto page = report::empty_page();
   auto file = out.empty() ? run_folder / "report.html" : out;
-  files::write_atomically(file, report::filled_page(page, report::report_data(run_folder)));
+  files::write_atomically(file, report::filled_page(page, run::report_data(run_folder)));
   return file;
 }
 
@@ -30,7 +30,7 @@ namespace {
 std::filesystem::path make_page(const std::filesystem::path& run_folder, const std::filesystem::path& out) {
   if (!out.empty()) return write_report_page(run_folder, out);
   std::filesystem::path page;
-  io::write_page(run_folder, [&] { page = write_report_page(run_folder); });
+  run::write_page(run_folder, [&] { page = write_report_page(run_folder); });
   return page;
 }
 

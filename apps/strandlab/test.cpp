@@ -15,10 +15,10 @@
 #include "strandlab/report/findings.hpp"
 #include "strandlab/report/plots.hpp"
 #include "strandlab/report/result_tables.hpp"
+#include "strandlab/report/theory_curves.hpp"
+#include "strandlab/run/theory_rows.hpp"
 #include "strandlab/statics/cholesky.hpp"
 #include "strandlab/vtest/vtest.hpp"
-#include "theory_curves.hpp"
-#include "theory_rows.hpp"
 
 namespace strandlab::app {
 namespace {

@@ -12,8 +12,8 @@
 #include "strandlab/case/case.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/files/csv.hpp"
+#include "strandlab/run/theory_rows.hpp"
 #include "strandlab/theory/estimate.hpp"
-#include "theory_rows.hpp"
 
 namespace strandlab::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "strandlab/io/hotpress_results.hpp"
+#include "strandlab/report/hotpress_results.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-namespace strandlab::io {
+namespace strandlab::report {
 namespace {
 
 using hotpress::Answers, hotpress::CellReading, hotpress::Cycle, hotpress::Instant;
@@ -62,29 +62,29 @@ std::string cure_line(const Answers& a) {
 
 files::CsvTable hotpress_table(const Cycle& cycle) {
   files::CsvTable table({"time_s",
-                  "phase",
-                  "gap_mm",
-                  "thickness_mm",
-                  "pressure_MPa",
-                  "wood_stress_MPa",
-                  "platen_top_C",
-                  "platen_bottom_C",
-                  "T_face_C",
-                  "T_quarter_C",
-                  "T_core_C",
-                  "M_face",
-                  "M_quarter",
-                  "M_core",
-                  "gas_face_kPa",
-                  "gas_quarter_kPa",
-                  "gas_core_kPa",
-                  "gas_mean_kPa",
-                  "cure_face",
-                  "cure_core",
-                  "density_face_kg_m3",
-                  "density_core_kg_m3",
-                  "heat_kJ_m2",
-                  "water_out_kg_m2"});
+                         "phase",
+                         "gap_mm",
+                         "thickness_mm",
+                         "pressure_MPa",
+                         "wood_stress_MPa",
+                         "platen_top_C",
+                         "platen_bottom_C",
+                         "T_face_C",
+                         "T_quarter_C",
+                         "T_core_C",
+                         "M_face",
+                         "M_quarter",
+                         "M_core",
+                         "gas_face_kPa",
+                         "gas_quarter_kPa",
+                         "gas_core_kPa",
+                         "gas_mean_kPa",
+                         "cure_face",
+                         "cure_core",
+                         "density_face_kg_m3",
+                         "density_core_kg_m3",
+                         "heat_kJ_m2",
+                         "water_out_kg_m2"});
   const auto T = [](const CellReading& c) { return c.T; };
   const auto M = [](const CellReading& c) { return c.M; };
   const auto gas = [](const CellReading& c) { return 1e-3 * c.gas; };
@@ -211,4 +211,4 @@ std::vector<std::string> summary(const hotpress::Band& result) {
   return lines;
 }
 
-}  // namespace strandlab::io
+}  // namespace strandlab::report

@@ -1,4 +1,4 @@
-#include "theory_rows.hpp"
+#include "strandlab/run/theory_rows.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "strandlab/core/error.hpp"
 
-namespace strandlab::app {
+namespace strandlab::run {
 namespace {
 
 theory::Row row_of_kind(const std::vector<StrandKind>& kinds, const std::string& name) {
@@ -65,4 +65,4 @@ std::vector<theory::Row> theory_rows(const cases::Case& c, const mat::Mat& mat) 
   return rows;
 }
 
-}  // namespace strandlab::app
+}  // namespace strandlab::run

@@ -9,7 +9,7 @@
 #include "strandlab/report/result_tables.hpp"
 #include "strandlab/theory/models.hpp"
 
-namespace strandlab::app {
+namespace strandlab::report {
 
 // A model's value for a test, in the row of theory.csv and the key of the plots.
 struct TheoryModulus {
@@ -23,16 +23,16 @@ struct TheoryModulus {
 // For each simulated modulus those of the models: tension by rule of mixtures and, where rows along the panel have gaps
 // that strands bridge through glue, by shear-lag; bending as a laminated beam. Rows off the grain as the simulated
 // ones, by `off_axis`. Throws as the models, and InputError for a test that is no vtest::Kind.
-std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows,
-                                         const std::vector<report::PanelModulus>& moduli, wood::OffAxis off_axis);
+std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows, const std::vector<PanelModulus>& moduli,
+                                         wood::OffAxis off_axis);
 
 // compaction, model, test, compliance_t_mm_per_MPa, modulus_MPa; one row per value.
 files::CsvTable theory_table(const std::vector<TheoryModulus>& moduli);
 
 // Reference curves of a test for report::plot_modulus_against_compliance: one per model and compaction, named once per
 // model.
-std::vector<report::Curve> theory_against_compliance(const std::vector<TheoryModulus>& moduli, const std::string& test);
+std::vector<Curve> theory_against_compliance(const std::vector<TheoryModulus>& moduli, const std::string& test);
 // The same for report::plot_modulus_against_compaction, without the models that depend on the glue: one per model.
-std::vector<report::Curve> theory_against_compaction(const std::vector<TheoryModulus>& moduli, const std::string& test);
+std::vector<Curve> theory_against_compaction(const std::vector<TheoryModulus>& moduli, const std::string& test);
 
-}  // namespace strandlab::app
+}  // namespace strandlab::report

@@ -1,11 +1,11 @@
-#include "theory_curves.hpp"
+#include "strandlab/report/theory_curves.hpp"
 
 #include <algorithm>
 #include <map>
 
 #include "strandlab/vtest/vtest.hpp"
 
-namespace strandlab::app {
+namespace strandlab::report {
 namespace {
 
 constexpr const char* kRuleOfMixtures = "rule of mixtures";
@@ -18,8 +18,8 @@ bool has_gaps_along(const std::vector<theory::Row>& rows) {
   });
 }
 
-report::Curve curve_of(const std::map<double, double>& points) {
-  report::Curve curve;
+Curve curve_of(const std::map<double, double>& points) {
+  Curve curve;
   for (const auto& [x, y] : points) {
     curve.x.push_back(x);
     curve.y.push_back(y);
@@ -29,8 +29,8 @@ report::Curve curve_of(const std::map<double, double>& points) {
 
 }  // namespace
 
-std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows,
-                                         const std::vector<report::PanelModulus>& moduli, wood::OffAxis off_axis) {
+std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows, const std::vector<PanelModulus>& moduli,
+                                         wood::OffAxis off_axis) {
   const bool bridged = has_gaps_along(rows);
   std::vector<TheoryModulus> theory;
   for (const auto& m : moduli) {
@@ -62,12 +62,11 @@ files::CsvTable theory_table(const std::vector<TheoryModulus>& moduli) {
   return table;
 }
 
-std::vector<report::Curve> theory_against_compliance(const std::vector<TheoryModulus>& moduli,
-                                                     const std::string& test) {
+std::vector<Curve> theory_against_compliance(const std::vector<TheoryModulus>& moduli, const std::string& test) {
   std::map<std::string, std::map<double, std::map<double, double>>> points;
   for (const auto& m : moduli)
     if (m.test == test) points[m.model][m.compaction][m.compliance_t_mm_per_MPa] = m.modulus_MPa;
-  std::vector<report::Curve> curves;
+  std::vector<Curve> curves;
   for (const auto& [model, by_compaction] : points) {
     std::string name = model;
     for (const auto& [compaction, line] : by_compaction) {
@@ -79,12 +78,11 @@ std::vector<report::Curve> theory_against_compliance(const std::vector<TheoryMod
   return curves;
 }
 
-std::vector<report::Curve> theory_against_compaction(const std::vector<TheoryModulus>& moduli,
-                                                     const std::string& test) {
+std::vector<Curve> theory_against_compaction(const std::vector<TheoryModulus>& moduli, const std::string& test) {
   std::map<std::string, std::map<double, double>> points;
   for (const auto& m : moduli)
     if (m.test == test && m.model != kShearLag) points[m.model][1 / (1 - m.compaction)] = m.modulus_MPa;
-  std::vector<report::Curve> curves;
+  std::vector<Curve> curves;
   for (const auto& [model, line] : points) {
     curves.push_back(curve_of(line));
     curves.back().name = model;
@@ -92,4 +90,4 @@ std::vector<report::Curve> theory_against_compaction(const std::vector<TheoryMod
   return curves;
 }
 
-}  // namespace strandlab::app
+}  // namespace strandlab::report

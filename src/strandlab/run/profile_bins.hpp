@@ -3,10 +3,10 @@
 
 #include "strandlab/case/case.hpp"
 
-namespace strandlab::app {
+namespace strandlab::run {
 
 // Number of cells between the platens when the panel has the compaction it was kept at: cells that follow the platens
 // stay as many as at the start, others become fewer.
 int bins_of_one_cell(const cases::Case& c, const Panel<2>& panel, double compaction);
 
-}  // namespace strandlab::app
+}  // namespace strandlab::run

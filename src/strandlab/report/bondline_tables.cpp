@@ -1,4 +1,4 @@
-#include "bondline_tables.hpp"
+#include "strandlab/report/bondline_tables.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace strandlab::app {
+namespace strandlab::report {
 namespace {
 
 using Cells = std::vector<files::CsvCell>;
@@ -119,4 +119,4 @@ files::CsvTable comparison_table(const bondline::Analysis& analysis) {
   return table;
 }
 
-}  // namespace strandlab::app
+}  // namespace strandlab::report

@@ -1,5 +1,5 @@
 // Run folders: whose results they hold, and that a refusal writes nothing.
-#include "strandlab/io/run_folder.hpp"
+#include "strandlab/run/folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include "support/temporary_folder.hpp"
 #include "support/unwritable.hpp"
 
-namespace strandlab::io {
+namespace strandlab::run {
 namespace {
 
 using test::message_of;
@@ -31,7 +31,8 @@ void make_finished(const std::filesystem::path& folder, const cases::Case& c) {
   for (const auto* name :
        {"mat.json", "press.csv", "panels/panel_0.h5", "moduli.csv", "theory.csv", "report.html", "notes.txt"})
     put(run.file(name), "x");
-  for (const auto step : {cases::Step::kMat, cases::Step::kPress, cases::Step::kTest, cases::Step::kPage}) run.set_finished(step);
+  for (const auto step : {cases::Step::kMat, cases::Step::kPress, cases::Step::kTest, cases::Step::kPage})
+    run.set_finished(step);
 }
 
 TEST(RunFolder, KeepsResultsOfTheSameCase) {
@@ -86,8 +87,8 @@ TEST(RunFolder, ForceOfATestNeverCostsThePanels) {
   const TemporaryFolder folder;
   make_finished(folder / "run", cases::Case());
   const auto before = test::contents(folder / "run/run.json");
-  const auto message =
-      message_of<InputError>([&] { RunFolder(folder / "run", with("press.speed_m_s=8"), cases::Step::kTest, true, kSmall); });
+  const auto message = message_of<InputError>(
+      [&] { RunFolder(folder / "run", with("press.speed_m_s=8"), cases::Step::kTest, true, kSmall); });
   EXPECT_NE(message.find("press.speed_m_s = 16 there, 8 here"), std::string::npos) << message;
   EXPECT_EQ(test::contents(folder / "run/run.json"), before);
   EXPECT_EQ(test::contents(folder / "run/panels/panel_0.h5"), "x");
@@ -96,7 +97,8 @@ TEST(RunFolder, ForceOfATestNeverCostsThePanels) {
 TEST(RunFolder, ATestNeedsPressedPanels) {
   const TemporaryFolder folder;
   for (const bool force : {false, true}) {
-    const auto message = message_of<InputError>([&] { RunFolder(folder / "new", cases::Case(), cases::Step::kTest, force, kSmall); });
+    const auto message =
+        message_of<InputError>([&] { RunFolder(folder / "new", cases::Case(), cases::Step::kTest, force, kSmall); });
     EXPECT_NE(message.find("no pressed panel"), std::string::npos) << message;
     EXPECT_EQ(folder.files(), 0U);
   }
@@ -143,7 +145,8 @@ TEST(RunFolder, RefusesANameThatCannotBe) {
   const TemporaryFolder folder;
   std::filesystem::create_symlink(folder / "loop", folder / "loop");
   for (const auto& name : {std::string("loop"), std::string("loop/run"), std::string(5000, 'x')})
-    EXPECT_NE(refusal(folder / name, cases::Case()).find("cannot be a run folder"), std::string::npos) << name.substr(0, 20);
+    EXPECT_NE(refusal(folder / name, cases::Case()).find("cannot be a run folder"), std::string::npos)
+        << name.substr(0, 20);
 }
 
 TEST(RunFolder, SaysWhatIsMissing) {
@@ -152,8 +155,9 @@ TEST(RunFolder, SaysWhatIsMissing) {
   make_finished(folder / "run", c);
   const RunFolder run(folder / "run", c, cases::Step::kMat, false, kSmall);
   EXPECT_EQ(run.missing(cases::Step::kMat, c), std::vector<std::string>{});
-  EXPECT_EQ(run.missing(cases::Step::kPress, c), (std::vector<std::string>{"morphology.csv", "histograms.csv", "profile.csv",
-                                                                    "profile_summary.csv", "panels/panel_0.1.h5"}));
+  EXPECT_EQ(run.missing(cases::Step::kPress, c),
+            (std::vector<std::string>{"morphology.csv", "histograms.csv", "profile.csv", "profile_summary.csv",
+                                      "panels/panel_0.1.h5"}));
   std::filesystem::remove(run.file("moduli.csv"));
   EXPECT_EQ(run.missing(cases::Step::kTest, c), std::vector<std::string>{"moduli.csv"});
 }
@@ -257,4 +261,4 @@ TEST(RunFolder, RemovesFilesOfStepsItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace strandlab::io
+}  // namespace strandlab::run

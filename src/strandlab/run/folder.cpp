@@ -1,4 +1,4 @@
-#include "strandlab/io/run_folder.hpp"
+#include "strandlab/run/folder.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 #include "strandlab/files/atomic_file.hpp"
 #include "strandlab/files/json_text.hpp"
 
-namespace strandlab::io {
+namespace strandlab::run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -326,4 +326,4 @@ void write_page(const fs::path& folder, const std::function<void()>& write) {
   save_record(record, folder);
 }
 
-}  // namespace strandlab::io
+}  // namespace strandlab::run

@@ -1,4 +1,4 @@
-#include "strandlab/report/report_data.hpp"
+#include "strandlab/run/page.hpp"
 
 #include <fmt/format.h>
 
@@ -14,12 +14,12 @@
 #include "strandlab/core/text.hpp"
 #include "strandlab/files/json_text.hpp"
 #include "strandlab/io/checkpoint.hpp"
-#include "strandlab/io/run_folder.hpp"
 #include "strandlab/report/frames.hpp"
 #include "strandlab/report/morphology.hpp"
+#include "strandlab/run/folder.hpp"
 #include "strandlab/vtest/vtest.hpp"
 
-namespace strandlab::report {
+namespace strandlab::run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -132,7 +132,7 @@ Json words() {
   Json tests, quantities;
   for (const auto& name : vtest::kind_names()) tests[name] = vtest::label(vtest::kind_from_name(name));
   for (const auto* name : {"grain_angle_deg", "strand_thickness_strain"}) {
-    const auto w = words_of(name);
+    const auto w = report::words_of(name);
     quantities[name] = {{"title", w.title}, {"axis", w.axis}, {"factor", w.factor}};
   }
   return {{"tests", tests}, {"quantities", quantities}};
@@ -154,13 +154,14 @@ std::vector<Panel<2>> read_frames(const fs::path& run_folder) {
   std::vector<Panel<2>> frames;
   for (const auto& file : files_in(run_folder / "frames")) frames.push_back(io::read_panel<2>(file, ""));
   if (!frames.empty()) return frames;
-  for (const auto& file : files_in(run_folder / "panels")) frames.push_back(frame_of(io::read_panel<2>(file, "")));
+  for (const auto& file : files_in(run_folder / "panels"))
+    frames.push_back(report::frame_of(io::read_panel<2>(file, "")));
   std::sort(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.compaction() < b.compaction(); });
   return frames;
 }
 
 Json report_data(const fs::path& run_folder) {
-  auto record = io::read_run_record(run_folder);
+  auto record = run::read_run_record(run_folder);
   record["steps"].erase("page");  // whether there was a page before changes nothing in this one
   const auto c = read_run_case(run_folder);
   Json run{{"case", describe(c, record)},
@@ -170,7 +171,7 @@ Json report_data(const fs::path& run_folder) {
            {"findings", findings_of(record)},
            {"words", words()},
            {"tables", Json::object()},
-           {"frames", pack_frames({}, {})}};
+           {"frames", report::pack_frames({}, {})}};
   if (finished(record, "mat")) run["mat"] = read_object(run_folder / "mat.json", "a mat file");
   if (finished(record, "press")) {
     std::vector<std::string> names(kTables.begin(), kTables.end());
@@ -180,9 +181,9 @@ Json report_data(const fs::path& run_folder) {
     for (const auto& name : names) {
       if (auto text = read_text(run_folder / name)) run["tables"][name] = *text;
     }
-    run["frames"] = pack_frames(read_frames(run_folder), c.test.curing);
+    run["frames"] = report::pack_frames(read_frames(run_folder), c.test.curing);
   }
   return {{"format", 1}, {"run", run}};
 }
 
-}  // namespace strandlab::report
+}  // namespace strandlab::run

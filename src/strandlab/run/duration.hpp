@@ -2,9 +2,9 @@
 
 #include <string>
 
-namespace strandlab::app {
+namespace strandlab::run {
 
 // "45 s", "3 min 20 s", "2 h 5 min".
 std::string duration(double seconds);
 
-}  // namespace strandlab::app
+}  // namespace strandlab::run

@@ -1,8 +1,8 @@
-#include "composition.hpp"
+#include "strandlab/run/composition.hpp"
 
 #include <fmt/format.h>
 
-namespace strandlab::app {
+namespace strandlab::run {
 namespace {
 
 std::string percentages(const std::vector<WeightShare>& shares) {
@@ -31,4 +31,4 @@ nlohmann::json to_json(const Weight& weight) {
           {"weight_fraction_by_material", fractions(weight.by_material)}};
 }
 
-}  // namespace strandlab::app
+}  // namespace strandlab::run

@@ -4,10 +4,10 @@
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/files/csv.hpp"
 
-namespace strandlab::app {
+namespace strandlab::report {
 
 files::CsvTable specimen_table(const bondline::Analysis& analysis);
 files::CsvTable group_table(const bondline::Analysis& analysis);
 files::CsvTable comparison_table(const bondline::Analysis& analysis);
 
-}  // namespace strandlab::app
+}  // namespace strandlab::report

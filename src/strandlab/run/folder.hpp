@@ -10,7 +10,7 @@
 #include "strandlab/case/case.hpp"
 #include "strandlab/case/write.hpp"
 
-namespace strandlab::io {
+namespace strandlab::run {
 
 class RunFolder {
  public:
@@ -70,4 +70,4 @@ nlohmann::json read_run_record(const std::filesystem::path& folder);
 // through.
 void write_page(const std::filesystem::path& folder, const std::function<void()>& write);
 
-}  // namespace strandlab::io
+}  // namespace strandlab::run

@@ -1,5 +1,5 @@
 // Which closed-form model a virtual test is compared with.
-#include "theory_curves.hpp"
+#include "strandlab/report/theory_curves.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,11 +12,11 @@
 #include "strandlab/vtest/vtest.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace strandlab::app {
+namespace strandlab::report {
 namespace {
 
-report::PanelModulus modulus_of(const std::string& test) {
-  report::PanelModulus m;
+PanelModulus modulus_of(const std::string& test) {
+  PanelModulus m;
   m.compaction = 0.2;
   m.test = test;
   m.compliance_t_mm_per_MPa = 0.0105;
@@ -57,4 +57,4 @@ TEST(TheoryCurves, ATestThatNoModelKnowsIsNotTakenForBending) {
 }
 
 }  // namespace
-}  // namespace strandlab::app
+}  // namespace strandlab::report

@@ -8,7 +8,7 @@
 #include "strandlab/files/csv.hpp"
 #include "strandlab/hotpress/answers.hpp"
 
-namespace strandlab::io {
+namespace strandlab::report {
 
 // hotpress.csv: one line per step. M are kg of water per kg of dry wood; gas pressures are above the room's. Face: mean
 // of both outermost cells; quarter: of the two cells a quarter of the mass from the faces; core: the cell next to
@@ -24,4 +24,4 @@ nlohmann::json to_json(const hotpress::Band& band);
 // The same in a few lines: how long must I press?
 std::vector<std::string> summary(const hotpress::Band& band);
 
-}  // namespace strandlab::io
+}  // namespace strandlab::report

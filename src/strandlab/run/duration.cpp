@@ -1,10 +1,10 @@
-#include "duration.hpp"
+#include "strandlab/run/duration.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-namespace strandlab::app {
+namespace strandlab::run {
 
 std::string duration(double seconds) {
   if (!std::isfinite(seconds)) return "unknown";
@@ -15,4 +15,4 @@ std::string duration(double seconds) {
   return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
 }
 
-}  // namespace strandlab::app
+}  // namespace strandlab::run
