@@ -9,6 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "strandlab/core/error.hpp"
+#include "strandlab/core/text.hpp"
+
 namespace strandlab::report {
 namespace {
 
@@ -48,6 +51,54 @@ void add_slope(const bondline::Slope& slope, Cells& cells) {
   const auto if_known = [&](double value) { return cell(known ? std::optional(value) : std::nullopt); };
   cells.insert(cells.end(), {if_known(slope.r_squared), cell(slope.low_N), cell(slope.high_N), count(slope.points),
                              if_known(slope.toe_mm), fmt::format("{}", fmt::join(slope.flags, "; "))});
+}
+
+std::string excluded_text(const bondline::Analysis& analysis) {
+  std::string text;
+  for (const auto& s : analysis.specimens)
+    if (!s.excluded.empty())
+      text += fmt::format("excluded: {} ({}): {}\n", printable(s.specimen.id), printable(s.specimen.source),
+                          printable(s.excluded));
+  for (const auto& s : analysis.specimens) {
+    if (!s.specimen.slope) continue;
+    for (const auto& flag : s.specimen.slope->flags)
+      text += fmt::format("flag: {}: {}\n", printable(s.specimen.id), flag);
+  }
+  return text;
+}
+
+std::string groups_text(const bondline::Analysis& analysis) {
+  auto text = fmt::format("{:<24}{:>4}{:>10}{:>12}{:>11}{:>12}{:>12}{:>10}{:>14}\n", "group", "n", "excluded", "1/D_t",
+                          "sd", "95 % low", "95 % high", "p(0)", "from mean k");
+  for (const auto& g : analysis.groups) {
+    const auto& c = g.compliance_t;
+    text += fmt::format("{:<24}{:>4}{:>10}{:>12.5f}{:>11.5f}{:>12.5f}{:>12.5f}{:>10.3g}{:>14}\n", printable(g.name),
+                        c.n, g.excluded, c.mean, c.sd, c.low, c.high, c.p,
+                        g.compliance_of_mean ? fmt::format("{:.5f}", *g.compliance_of_mean) : "none");
+  }
+  text += fmt::format("1/D_t in mm/MPa; interval: Student's t; p(0): one-sample t-test of 1/D_t = 0\n");
+  return text;
+}
+
+std::string comparisons_text(const bondline::Analysis& analysis) {
+  std::string text;
+  for (const auto& family : analysis.families) {
+    const std::string within = family.name.empty() ? "" : printable(family.name) + ": ";
+    if (!family.note.empty()) text += fmt::format("{}{}\n", within, family.note);
+    if (!family.anova) continue;
+    text += fmt::format(
+        "{}one-way ANOVA F({}, {}) = {:.4g}, p = {:.3g}; without equal variances (Welch) F({:g}, {:.1f}) = {:.4g}, p = "
+        "{:.3g}\n",
+        within, family.anova->df_between, family.anova->df_within, family.anova->F, family.anova->p,
+        family.welch->df_between, family.welch->df_within, family.welch->F, family.welch->p);
+    for (const auto& pair : family.pairs)
+      text += fmt::format("  {} - {}: {:.5f} mm/MPa, t = {:.3g}, p = {:.3g}\n",
+                          printable(analysis.groups[family.groups[pair.first]].name),
+                          printable(analysis.groups[family.groups[pair.second]].name), pair.difference, pair.t,
+                          pair.p_holm);
+    text += fmt::format("  pairs: Welch's t-test, p corrected by Holm's method\n");
+  }
+  return text;
 }
 
 }  // namespace
@@ -117,6 +168,28 @@ files::CsvTable comparison_table(const bondline::Analysis& analysis) {
                      cell(pair.high), cell(pair.t), cell(pair.df), none, cell(pair.p), cell(pair.p_holm)});
   }
   return table;
+}
+
+std::string text_of(const bondline::Analysis& analysis) {
+  return excluded_text(analysis) + groups_text(analysis) + comparisons_text(analysis);
+}
+
+std::string text_of(const OverlapDesign& design) {
+  if (const auto wrong = bondline::fault(design.geometry); !wrong.empty()) throw InputError(wrong);
+  const auto& u = design.uncertainty;
+  auto text =
+      fmt::format("overlap that measures 1/D_t best, for errors of k {:g} %, E {:g} %, t {:g} %, overlap {:g} mm\n",
+                  100 * u.k_relative, 100 * u.E_relative, 100 * u.t_relative, u.l_mm);
+  text += fmt::format("{:>14}{:>14}{:>22}{:>18}{:>22}{:>12}\n", "1/D_t mm/MPa", "overlap mm", "10 % worse at mm",
+                      "error of 1/D_t %", "d ln k/d ln(1/D_t)", "k N/mm");
+  for (double compliance : design.compliances_t) {
+    const auto best =
+        bondline::best_overlap(design.geometry, compliance, u, design.shortest_mm, design.longest_mm, design.formula);
+    text += fmt::format("{:>14g}{:>14.1f}{:>22}{:>18.1f}{:>22.3f}{:>12.0f}\n", compliance, best.overlap_mm,
+                        fmt::format("{:.1f} to {:.1f}", best.shortest_mm, best.longest_mm),
+                        100 * best.relative_uncertainty, best.sensitivity, best.stiffness_N_per_mm);
+  }
+  return text;
 }
 
 }  // namespace strandlab::report
