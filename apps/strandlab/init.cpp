@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "console.hpp"
 #include "strandlab/case/case.hpp"
 #include "strandlab/case/write.hpp"
 #include "strandlab/core/nearest.hpp"
+#include "terminal.hpp"
 
 namespace strandlab::app {
 namespace {

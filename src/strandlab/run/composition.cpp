@@ -12,23 +12,11 @@ std::string percentages(const std::vector<WeightShare>& shares) {
   return text;
 }
 
-nlohmann::json fractions(const std::vector<WeightShare>& shares) {
-  nlohmann::json object = nlohmann::json::object();
-  for (const auto& share : shares) object[share.name] = share.fraction;
-  return object;
-}
-
 }  // namespace
 
 std::vector<std::string> composition(const Weight& weight) {
   return {fmt::format("weight: {:.4g} kg/m2; by kind: {}; by material: {}", weight.kg_per_m2,
                       percentages(weight.by_kind), percentages(weight.by_material))};
-}
-
-nlohmann::json to_json(const Weight& weight) {
-  return {{"kg_per_m2", weight.kg_per_m2},
-          {"weight_fraction_by_kind", fractions(weight.by_kind)},
-          {"weight_fraction_by_material", fractions(weight.by_material)}};
 }
 
 }  // namespace strandlab::run

@@ -1,7 +1,6 @@
-// What a mat is made of, in words and for run.json.
+// What a mat is made of, in words.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -11,7 +10,5 @@ namespace strandlab::run {
 
 // Weight of panel area, and the percentages of it by strand kind and by material.
 std::vector<std::string> composition(const Weight& weight);
-// kg_per_m2, weight_fraction_by_kind, weight_fraction_by_material.
-nlohmann::json to_json(const Weight& weight);
 
 }  // namespace strandlab::run

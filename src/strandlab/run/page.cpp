@@ -4,17 +4,17 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <optional>
-#include <sstream>
 #include <string>
 
 #include "strandlab/case/case.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
+#include "strandlab/files/atomic_file.hpp"
 #include "strandlab/files/json_text.hpp"
+#include "strandlab/files/text_file.hpp"
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/report/frames.hpp"
+#include "strandlab/report/html.hpp"
 #include "strandlab/report/morphology.hpp"
 #include "strandlab/run/folder.hpp"
 #include "strandlab/vtest/vtest.hpp"
@@ -28,16 +28,8 @@ using Json = nlohmann::json;
 constexpr std::array kTables{"press.csv",      "moduli.csv",     "theory.csv",
                              "morphology.csv", "histograms.csv", "profile.csv"};
 
-std::optional<std::string> read_text(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return std::nullopt;
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 std::string needed_text(const fs::path& file) {
-  auto text = read_text(file);
+  auto text = files::read_text(file);
   if (!text)
     throw InputError(fmt::format("{}: cannot be read; strandlab run makes a missing result again", file.string()));
   return *text;
@@ -179,11 +171,26 @@ Json report_data(const fs::path& run_folder) {
       names.push_back(fmt::format("glue_lines/slip_{}.csv", compaction));
     }
     for (const auto& name : names) {
-      if (auto text = read_text(run_folder / name)) run["tables"][name] = *text;
+      if (auto text = files::read_text(run_folder / name)) run["tables"][name] = *text;
     }
     run["frames"] = report::pack_frames(read_frames(run_folder), c.test.curing);
   }
   return {{"format", 1}, {"run", run}};
+}
+
+fs::path write_report_page(const fs::path& run_folder, const fs::path& out) {
+  const auto page = report::empty_page();
+  auto file = out.empty() ? run_folder / "report.html" : out;
+  files::write_atomically(file, report::filled_page(page, report_data(run_folder)));
+  return file;
+}
+
+// The folder's own page is one of its results; a page elsewhere is the user's file.
+fs::path remake_page(const fs::path& run_folder, const fs::path& out) {
+  if (!out.empty()) return write_report_page(run_folder, out);
+  fs::path page;
+  write_page(run_folder, [&] { page = write_report_page(run_folder); });
+  return page;
 }
 
 }  // namespace strandlab::run

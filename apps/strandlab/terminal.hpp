@@ -1,19 +1,15 @@
-// What the user sees while a command works, and the log that keeps it.
+// What the user sees while a command works.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 
-namespace spdlog {
-class logger;
-}
+#include "strandlab/run/observer.hpp"
 
 namespace strandlab::app {
 
@@ -32,21 +28,16 @@ void refuse_lost_output();
 // disk full while a run goes on.
 void tell(int descriptor, std::string_view text);
 
-class Console {
+// A run as the terminal shows it.
+class Terminal final : public run::Observer {
  public:
-  Console();
-  ~Console();
-  Console(const Console&) = delete;
-  Console& operator=(const Console&) = delete;
+  Terminal();
+  ~Terminal() override;
 
-  // From now on every line also goes to this file, with date and time. Throws InputError when it cannot be opened.
-  void log_to(const std::filesystem::path& file);
-
-  void say(const std::string& line);
-  void warn(const std::string& line);
-  void log_error(const std::string& line);  // main() tells the user
-  // On a terminal one line that is written over; else, and in the log, a plain line every ten seconds.
-  void progress(const std::string& line);
+  void say(const std::string& line) override;
+  void warn(const std::string& line) override;
+  // On a terminal one line that is written over; else a plain line every ten seconds.
+  void progress(const run::Progress& progress) override;
 
  private:
   void clear_progress();
@@ -54,7 +45,6 @@ class Console {
   bool terminal_ = false;
   bool line_open_ = false;
   std::chrono::steady_clock::time_point last_plain_line_;
-  std::shared_ptr<spdlog::logger> log_;
 };
 
 }  // namespace strandlab::app
