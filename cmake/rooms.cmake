@@ -20,20 +20,27 @@ if(STRANDLAB_TIDY)  # of what is compiled below; tests are compiled but not anal
   set(CMAKE_CXX_CLANG_TIDY clang-tidy --quiet)
 endif()
 
-# strandlab_room(name LINKS public... PRIVATE_LINKS private...): one library from src/strandlab/<name>/*.cpp
+# strandlab_room(name LINKS public... PRIVATE_LINKS private...): one library from src/strandlab/<name>/*.cpp, installed as
+# strandlab::<name>
 function(strandlab_room name)
   cmake_parse_arguments(ARG "" "" "LINKS;PRIVATE_LINKS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/strandlab/${name}/*.cpp)
   if(sources)
     list(FILTER sources EXCLUDE REGEX "/mpm/kernels\\.cpp$")  # see strandlab_kernel_builds
     add_library(strandlab_${name} STATIC ${sources})
-    target_include_directories(strandlab_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
-    target_link_libraries(strandlab_${name} PUBLIC ${ARG_LINKS} PRIVATE strandlab_flags ${ARG_PRIVATE_LINKS})
+    set(scope PUBLIC)
+    target_link_libraries(strandlab_${name} PUBLIC ${ARG_LINKS} PRIVATE $<BUILD_INTERFACE:strandlab_flags>
+      ${ARG_PRIVATE_LINKS})
   else()  # a room of headers only
     add_library(strandlab_${name} INTERFACE)
-    target_include_directories(strandlab_${name} INTERFACE ${PROJECT_SOURCE_DIR}/src)
+    set(scope INTERFACE)
     target_link_libraries(strandlab_${name} INTERFACE ${ARG_LINKS} ${ARG_PRIVATE_LINKS})
   endif()
+  target_include_directories(strandlab_${name} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+    $<INSTALL_INTERFACE:include>)
+  target_compile_features(strandlab_${name} ${scope} cxx_std_20)
+  set_target_properties(strandlab_${name} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS strandlab_${name} EXPORT strandlab)
 endfunction()
 
 # One object library per instruction set from mpm/kernels.cpp, each in a namespace of its own.
