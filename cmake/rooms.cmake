@@ -3,6 +3,7 @@ add_library(strandlab_flags INTERFACE)
 target_compile_options(strandlab_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
   -fno-math-errno -ffp-contract=fast
+  -fno-semantic-interposition  # position-independent, but our functions call and inline each other as in a program
   # g++ 12 warns of its own AVX-512 intrinsics under Eigen (GCC bug 105593)
   $<$<AND:$<BOOL:${STRANDLAB_NATIVE}>,$<CXX_COMPILER_ID:GNU>>:-Wno-maybe-uninitialized;-Wno-uninitialized>
   $<$<BOOL:${STRANDLAB_NATIVE}>:-march=native>
@@ -19,20 +20,27 @@ if(STRANDLAB_FUZZ)  # every room counts its branches, for the fuzzers to find ne
   target_compile_options(strandlab_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# strandlab_room(name LINKS public... PRIVATE_LINKS private...): one library from src/strandlab/<name>/*.cpp
+# strandlab_room(name LINKS public... PRIVATE_LINKS private...): one library from src/strandlab/<name>/*.cpp, installed as
+# strandlab::<name>
 function(strandlab_room name)
   cmake_parse_arguments(ARG "" "" "LINKS;PRIVATE_LINKS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/strandlab/${name}/*.cpp)
   if(sources)
     list(FILTER sources EXCLUDE REGEX "/mpm/kernels\\.cpp$")  # see strandlab_kernel_builds
     add_library(strandlab_${name} STATIC ${sources})
-    target_include_directories(strandlab_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
-    target_link_libraries(strandlab_${name} PUBLIC ${ARG_LINKS} PRIVATE strandlab_flags ${ARG_PRIVATE_LINKS})
+    set(scope PUBLIC)
+    target_link_libraries(strandlab_${name} PUBLIC ${ARG_LINKS} PRIVATE $<BUILD_INTERFACE:strandlab_flags>
+      ${ARG_PRIVATE_LINKS})
   else()  # a room of headers only
     add_library(strandlab_${name} INTERFACE)
-    target_include_directories(strandlab_${name} INTERFACE ${PROJECT_SOURCE_DIR}/src)
+    set(scope INTERFACE)
     target_link_libraries(strandlab_${name} INTERFACE ${ARG_LINKS} ${ARG_PRIVATE_LINKS})
   endif()
+  target_include_directories(strandlab_${name} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+    $<INSTALL_INTERFACE:include>)
+  target_compile_features(strandlab_${name} ${scope} cxx_std_20)
+  set_target_properties(strandlab_${name} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS strandlab_${name} EXPORT strandlab)
 endfunction()
 
 # One object library per instruction set from mpm/kernels.cpp, each in a namespace of its own.

@@ -4,7 +4,7 @@
 
 namespace strandlab::app {
 
-std::filesystem::path CaseArguments::run_folder(const io::Case& c) const {
+std::filesystem::path CaseArguments::run_folder(const cases::Case& c) const {
   return folder.empty() ? std::filesystem::path("runs") / c.name : std::filesystem::path(folder);
 }
 

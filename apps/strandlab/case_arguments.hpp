@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "strandlab/io/case.hpp"
+#include "strandlab/case/case.hpp"
 
 namespace CLI {
 class App;
@@ -19,9 +19,9 @@ struct CaseArguments {
   std::string folder;
   bool force = false;
 
-  io::Case read() const { return io::read_case(file, overrides); }
+  cases::Case read() const { return cases::read_case(file, overrides); }
   // The run folder: -o, else runs/<case name>.
-  std::filesystem::path run_folder(const io::Case& c) const;
+  std::filesystem::path run_folder(const cases::Case& c) const;
 };
 
 // CASE and --set; for commands that write results also -o and --force.

@@ -6,12 +6,12 @@
 
 #include "case_arguments.hpp"
 #include "commands.hpp"
-#include "composition.hpp"
-#include "console.hpp"
-#include "duration.hpp"
-#include "strandlab/io/case_estimate.hpp"
-#include "strandlab/io/case_write.hpp"
-#include "strandlab/vtest/vtest.hpp"
+#include "strandlab/case/estimate.hpp"
+#include "strandlab/case/write.hpp"
+#include "strandlab/run/composition.hpp"
+#include "strandlab/run/duration.hpp"
+#include "strandlab/run/form.hpp"
+#include "terminal.hpp"
 
 namespace strandlab::app {
 namespace {
@@ -19,12 +19,11 @@ namespace {
 // As comments, so that the output is a case file again.
 void check(const CaseArguments& arguments) {
   const auto c = arguments.read();
-  const auto mat = io::make_mat(c);
-  const auto panel = io::make_panel(c, mat);
-  vtest::check(panel, c.test);
-  if (c.sides == mpm::Side::kRoller) vtest::check_ends(panel, c.schedule.compactions.back());
-  const auto e = io::estimate(c, panel);
-  print("{}\n", io::resolved_text(c));
+  const auto formed = run::form(c);
+  run::refuse_untestable(formed);
+  const auto& mat = formed.mat;
+  const auto e = cases::estimate(c, formed.panel);
+  print("{}\n", cases::resolved_text(c));
   print("# mat: {} rows, {} strands, {:g} x {:g} mm\n", mat.layers.size(), e.strands, mat.length_mm,
         mat.thickness_mm());
   if (!c.mat_file.empty()) {
@@ -32,14 +31,14 @@ void check(const CaseArguments& arguments) {
         "# from mat.file: the sizes and rows of this mat count, not mat.length_mm, mat.layer_thickness_mm, "
         "mat.rows\n");
   }
-  for (const auto& line : composition(io::weigh(c, mat))) print("# {}\n", line);
-  for (const auto& line : io::derived_constants(c)) print("# {}\n", line);
+  for (const auto& line : run::composition(cases::weigh(c, mat))) print("# {}\n", line);
+  for (const auto& line : cases::derived_constants(c)) print("# {}\n", line);
   print("# particles: {}\n# cells: {} of {:.4g} x {:.4g} mm\n", e.particles, e.cells, e.cell_length_mm,
         e.cell_height_mm);
   print("# steps: {:.0f} of {:.3g} s, {:.3g} ms of pressing\n", e.steps, e.time_step_s, 1e3 * e.pressing_time_s);
   print("# memory: {:.0f} MB\n# disk: {:.0f} MB\n", e.memory_bytes / 1e6, e.disk_bytes / 1e6);
-  print("# estimated run time on {} thread(s): {} pressing, {} tests\n", io::thread_count(c), duration(e.press_s),
-        duration(e.test_s));
+  print("# estimated run time on {} thread(s): {} pressing, {} tests\n", cases::thread_count(c),
+        run::duration(e.press_s), run::duration(e.test_s));
 }
 
 }  // namespace

@@ -1,86 +1,31 @@
 // strandlab hotpress: a hot press cycle through the thickness of a case's mat, in a second.
+#include "strandlab/run/hotpress.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
 #include <filesystem>
 #include <memory>
 
 #include "case_arguments.hpp"
 #include "commands.hpp"
-#include "console.hpp"
-#include "git_hash.hpp"
-#include "strandlab/core/atomic_file.hpp"
-#include "strandlab/core/error.hpp"
-#include "strandlab/core/json_text.hpp"
 #include "strandlab/core/text.hpp"
-#include "strandlab/core/version.hpp"
-#include "strandlab/io/case_write.hpp"
-#include "strandlab/io/hotpress_case.hpp"
-#include "strandlab/io/hotpress_results.hpp"
+#include "strandlab/report/hotpress_results.hpp"
+#include "terminal.hpp"
 
 namespace strandlab::app {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr std::array kFiles{"case.toml", "hotpress.csv", "transfer_profiles.csv", "run.json"};
-
-// Results of `strandlab run` are no hot press of ours to replace: their run.json knows of panels.
-void refuse_folder(const fs::path& folder, bool force) {
-  std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-    throw InputError(fmt::format("{}: this is a file, not a folder; choose another with -o", folder.string()));
-  const auto there = [&](const char* name) { return fs::exists(folder / name, error); };
-  if (std::none_of(kFiles.begin(), kFiles.end(), there)) return;
-  if (there("run.json")) {
-    const auto record = read_json(folder / "run.json", "the record of a hot press");
-    if (!record.is_object() || record.contains("steps"))
-      throw InputError(
-          fmt::format("{}: holds the panels of strandlab run; choose another folder with -o", folder.string()));
-  }
-  if (!force)
-    throw InputError(
-        fmt::format("{}: has results already; --force replaces them, -o chooses another folder", folder.string()));
-}
-
-std::vector<std::string> remarks_on(const io::Case& c) {
-  std::vector<std::string> list;
-  if (!c.hotpress.given) list.push_back("the case has no [hotpress]: the default cycle is pressed (docs/hotpress.md)");
-  for (const auto& kind : c.kinds) {
-    if (kind.law != wood::Law::kHill) continue;
-    list.push_back(
-        fmt::format("kinds.{} has law = \"hill\", under which no density profile emerges; the column takes the "
-                    "crushing constants of its material",
-                    kind.name));
-  }
-  return list;
-}
-
 void press(const CaseArguments& arguments) {
-  auto c = arguments.read();
-  const auto folder = arguments.folder.empty() ? fs::path("runs") / (c.name + "_hotpress") : fs::path(arguments.folder);
-  refuse_folder(folder, arguments.force);
-  auto notes = remarks_on(c);
-  const auto mat = io::make_mat(c);
-  const auto result = hotpress::press_in_band(io::hotpress_settings(c), io::pressed_mat(c, mat));
-  notes.insert(notes.end(), result.cycle.warnings.begin(), result.cycle.warnings.end());
-  for (const auto& remark : hotpress::remarks(result.cycle, result.answers)) notes.push_back(remark);
-
-  make_folder(folder);
-  fs::remove(folder / "run.json");  // written last again: a kill in between leaves no record beside other results
-  c.hotpress.given = true;          // the file shows all keys that were used
-  write_atomically(folder / "case.toml", io::resolved_text(c));
-  io::hotpress_table(result.cycle).write(folder / "hotpress.csv");
-  io::profiles_table(result.cycle).write(folder / "transfer_profiles.csv");
-  const nlohmann::json record{
-      {"strandlab", version()}, {"git", kGitHash}, {"hotpress", io::to_json(result)}, {"warnings", notes}};
-  write_atomically(folder / "run.json", record.dump(2) + "\n");
-  for (const auto& line : io::summary(result)) print("{}\n", printable(line));
-  for (const auto& note : notes) tell(STDERR_FILENO, fmt::format("warning: {}\n", printable(note)));
-  print("{}: hotpress.csv, transfer_profiles.csv, run.json\n", printable(folder.string()));
+  const auto c = arguments.read();
+  const run::Place place{arguments.folder.empty() ? std::filesystem::path("runs") / (c.name + "_hotpress")
+                                                  : std::filesystem::path(arguments.folder),
+                         arguments.force};
+  const auto pressed = run::hotpress(c, place);
+  for (const auto& line : report::summary(pressed.band)) print("{}\n", printable(line));
+  for (const auto& note : pressed.notes) tell(STDERR_FILENO, fmt::format("warning: {}\n", printable(note)));
+  print("{}: hotpress.csv, transfer_profiles.csv, run.json\n", printable(place.folder.string()));
 }
 
 }  // namespace

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "console.hpp"
+#include "strandlab/case/case.hpp"
+#include "strandlab/case/write.hpp"
 #include "strandlab/core/nearest.hpp"
-#include "strandlab/io/case.hpp"
-#include "strandlab/io/case_write.hpp"
+#include "terminal.hpp"
 
 namespace strandlab::app {
 namespace {
@@ -20,11 +20,11 @@ struct Arguments {
 
 void init(const Arguments& arguments) {
   if (arguments.reference) {
-    print("{}", io::reference_text());
+    print("{}", cases::reference_text());
     return;
   }
-  const auto c = io::ready_case(arguments.name);
-  print("{}", io::commented_text(c, io::ready_case_title(arguments.name)));
+  const auto c = cases::ready_case(arguments.name);
+  print("{}", cases::commented_text(c, cases::ready_case_title(arguments.name)));
 }
 
 }  // namespace
@@ -32,7 +32,8 @@ void init(const Arguments& arguments) {
 void add_init(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   auto* command = app.add_subcommand("init", "print a commented case to start from");
-  command->add_option("NAME", arguments->name, "ready case: " + quoted_list(io::ready_cases()))->capture_default_str();
+  command->add_option("NAME", arguments->name, "ready case: " + quoted_list(cases::ready_cases()))
+      ->capture_default_str();
   command->add_flag("--reference", arguments->reference, "print the reference page of all keys instead");
   command->callback([arguments] { init(*arguments); });
 }

@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "console.hpp"
-#include "git_hash.hpp"
 #include "process.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/core/version.hpp"
 #include "strandlab/mpm/dispatch.hpp"
+#include "strandlab/run/commit.hpp"
+#include "terminal.hpp"
 
 namespace {
 
@@ -51,7 +51,8 @@ void refuse_unknown_command(const CLI::App& app, const std::string& given) {
 
 int run(int argc, char** argv) {
   CLI::App app("Presses random strand mats and measures the moduli of the panels.", "strandlab");
-  app.set_version_flag("--version", fmt::format("strandlab {} ({})", strandlab::version(), kGitHash));
+  app.set_version_flag("--version",
+                       fmt::format("strandlab {} ({})", strandlab::version(), strandlab::run::git_commit()));
   app.require_subcommand(1);
   app.failure_message([](const CLI::App*, const CLI::Error& e) {
     return fmt::format("{}\nRun with --help for more information.\n", shown(e.what()));

@@ -1,6 +1,4 @@
 // strandlab theory: closed-form estimates of a panel, without a simulation.
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -8,12 +6,12 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "console.hpp"
+#include "strandlab/case/case.hpp"
 #include "strandlab/core/error.hpp"
-#include "strandlab/io/case.hpp"
-#include "strandlab/io/csv.hpp"
+#include "strandlab/report/estimates.hpp"
+#include "strandlab/run/theory_rows.hpp"
 #include "strandlab/theory/estimate.hpp"
-#include "theory_rows.hpp"
+#include "terminal.hpp"
 
 namespace strandlab::app {
 namespace {
@@ -27,10 +25,10 @@ struct Arguments {
 
 // The question a case asks, with what the flags change.
 theory::Question question_of(const Arguments& a) {
-  const auto c = a.file.empty() ? io::ready_case("osb") : io::read_case(a.file, a.overrides);
+  const auto c = a.file.empty() ? cases::ready_case("osb") : cases::read_case(a.file, a.overrides);
   if (a.file.empty() && !a.overrides.empty()) throw InputError("--set changes keys of a case; give a case file too");
   theory::Question q = a.question;
-  q.rows = theory_rows(c, io::make_mat(c));
+  q.rows = run::theory_rows(c, cases::make_mat(c));
   q.compactions = a.compactions.empty() ? c.schedule.compactions : a.compactions;
   q.compliances_t = a.compliances.empty() ? c.test.compliance_t_mm_per_MPa : a.compliances;
   for (double& compliance : q.compliances_t) compliance = std::max(compliance, 0.0);  // as the virtual tests take it
@@ -40,45 +38,15 @@ theory::Question question_of(const Arguments& a) {
   return q;
 }
 
-io::CsvTable table_of(const std::vector<theory::Estimate>& estimates) {
-  io::CsvTable table(
-      {"model", "compaction", "density_kg_m3", "compliance_t_mm_per_MPa", "strand_length_mm", "gap_mm", "modulus_MPa"});
-  for (const auto& e : estimates)
-    table.add_row({e.model, e.compaction, e.density_kg_m3,
-                   e.compliance_t ? io::CsvCell(*e.compliance_t) : io::CsvCell(std::string()), e.length_mm, e.gap_mm,
-                   e.modulus_MPa});
-  return table;
-}
-
-void print(const theory::Question& q, const std::vector<theory::Estimate>& estimates) {
-  app::print("{:<30}{:>6}{:>14}{:>14}{:>12}{:>9}{:>14}\n", "model", "C", "density kg/m3", "1/D_t mm/MPa", "length mm",
-             "gap mm", "modulus MPa");
-  for (const auto& e : estimates)
-    app::print("{:<30}{:>6.3g}{:>14.0f}{:>14}{:>12g}{:>9g}{:>14.0f}\n", e.model, e.compaction, e.density_kg_m3,
-               e.compliance_t ? fmt::format("{:g}", *e.compliance_t) : "", e.length_mm, e.gap_mm, e.modulus_MPa);
-  const auto core = std::find_if_not(q.rows.begin(), q.rows.end(), theory::runs_along);
-  if (core != q.rows.end())
-    app::print(
-        "random core of {}: quasi-isotropic laminate {:.0f}, mean over angles {:.0f}, the same in plane strain {:.0f} "
-        "MPa\n",
-        core->material.name, theory::quasi_isotropic_modulus_MPa(core->material),
-        theory::off_axis_average_MPa(core->material), theory::plane_strain_average_MPa(core->material));
-  for (const auto& model : theory::models()) {
-    const bool used =
-        std::any_of(estimates.begin(), estimates.end(), [&](const auto& e) { return e.model == model.name; });
-    if (used) app::print("{}: {}\n", model.name, model.validity);
-  }
-}
-
 void estimate(const Arguments& a) {
   const auto q = question_of(a);
   const auto estimates = theory::estimate(q);
   if (a.csv == "-") {
-    app::print("{}", table_of(estimates).text());
+    print("{}", report::estimate_table(estimates).text());
     return;
   }
-  print(q, estimates);
-  if (!a.csv.empty()) table_of(estimates).write(a.csv);
+  print("{}", report::text_of(q, estimates));
+  if (!a.csv.empty()) report::estimate_table(estimates).write(a.csv);
 }
 
 }  // namespace

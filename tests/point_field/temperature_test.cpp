@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "strandlab/files/hdf5.hpp"
 #include "strandlab/io/checkpoint.hpp"
-#include "strandlab/io/hdf5.hpp"
 #include "strandlab/io/vtk.hpp"
 #include "strandlab/panel/lumped.hpp"
 #include "strandlab/report/frames.hpp"
@@ -38,7 +38,7 @@ TEST(AddedField, IsKeptInCheckpoints) {
   io::write_checkpoint(checkpoint, "", folder / "checkpoint.h5");
   const auto back = io::read_checkpoint<2>(folder / "checkpoint.h5", "");
   EXPECT_EQ(back.panel.strands[0].points.temperature, checkpoint.panel.strands[0].points.temperature);
-  EXPECT_EQ(io::hdf5::Reader(folder / "checkpoint.h5").doubles("/panel/points/temperature_C", {80}),
+  EXPECT_EQ(files::hdf5::Reader(folder / "checkpoint.h5").doubles("/panel/points/temperature_C", {80}),
             checkpoint.panel.strands[0].points.temperature);
 }
 

@@ -5,8 +5,8 @@
 
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/core/error.hpp"
-#include "strandlab/core/json_text.hpp"
 #include "strandlab/core/text.hpp"
+#include "strandlab/files/json_text.hpp"
 
 namespace strandlab::bondline {
 namespace {
@@ -95,7 +95,7 @@ std::string to_json(const Analysis& analysis, const std::string& input) {
 }
 
 double group_compliance(const std::filesystem::path& file, const std::string& group) {
-  const nlohmann::json json = read_json(file, "a result of 'strandlab bondline'");
+  const nlohmann::json json = files::read_json(file, "a result of 'strandlab bondline'");
   const auto not_ours = [&] {
     return InputError(fmt::format("{}: is not a result of 'strandlab bondline'", file.string()));
   };

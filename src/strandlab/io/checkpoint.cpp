@@ -16,18 +16,18 @@
 #include <type_traits>
 #include <utility>
 
-#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/version.hpp"
-#include "strandlab/io/hdf5.hpp"
+#include "strandlab/files/atomic_file.hpp"
+#include "strandlab/files/hdf5.hpp"
 
 namespace strandlab::io {
 namespace {
 
-using hdf5::Label;
-using hdf5::Reader;
-using hdf5::Shape;
-using hdf5::Writer;
+using files::hdf5::Label;
+using files::hdf5::Reader;
+using files::hdf5::Shape;
+using files::hdf5::Writer;
 
 static_assert(std::numeric_limits<double>::is_iec559 && std::endian::native == std::endian::little,
               "files hold little-endian IEEE doubles; elsewhere HDF5 would convert, which is untested");
@@ -418,7 +418,7 @@ std::string checkpoint_bytes(const press::Checkpoint<Dim>& checkpoint, const std
 template <int Dim>
 void write_checkpoint(const press::Checkpoint<Dim>& checkpoint, const std::string& case_hash,
                       const std::filesystem::path& file) {
-  write_atomically(file, checkpoint_bytes(checkpoint, case_hash));
+  files::write_atomically(file, checkpoint_bytes(checkpoint, case_hash));
 }
 
 template <int Dim>
@@ -426,7 +426,7 @@ void write_panel(const Panel<Dim>& panel, const std::string& case_hash, const st
   Writer out;
   write_header(out, kPanelFormat, Dim, case_hash);
   write_panel_group(out, panel);
-  write_atomically(file, out.finish());
+  files::write_atomically(file, out.finish());
 }
 
 template <int Dim>
@@ -487,7 +487,7 @@ void CheckpointStore::keep_newest() const {
 
 template <int Dim>
 void CheckpointStore::save(const press::Checkpoint<Dim>& checkpoint) const {
-  write_atomically(newest(), checkpoint_bytes(checkpoint, case_hash_), [this] { keep_newest(); });
+  files::write_atomically(newest(), checkpoint_bytes(checkpoint, case_hash_), [this] { keep_newest(); });
 }
 
 template <int Dim>

@@ -6,13 +6,12 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <span>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 
-#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/version.hpp"
+#include "strandlab/files/atomic_file.hpp"
+#include "strandlab/files/base64.hpp"
 #include "strandlab/panel/point_fields.hpp"
 
 namespace strandlab::io {
@@ -21,27 +20,14 @@ namespace {
 // Cell types of the VTK file format.
 constexpr std::uint8_t kQuad = 9, kHexahedron = 12;
 
-void append_base64(std::string& out, std::span<const unsigned char> bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = std::min<std::size_t>(bytes.size() - i, 3);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < left ? bytes[i + k] : 0U);
-    for (std::size_t k = 0; k < 4; ++k) out += k <= left ? digits[group >> (18 - 6 * k) & 63U] : '=';
-  }
-}
-
 // VTK's "binary" array: the number of bytes as UInt64, then the values, as one base64 text.
 template <class Value>
 std::string encoded(const std::vector<Value>& values) {
   const std::uint64_t size = values.size() * sizeof(Value);
-  std::vector<unsigned char> bytes(sizeof size + size);
+  std::string bytes(sizeof size + size, '\0');
   std::memcpy(bytes.data(), &size, sizeof size);
   if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
-  std::string out;
-  out.reserve(bytes.size() / 3 * 4 + 4);
-  append_base64(out, bytes);
-  return out;
+  return files::base64(bytes);
 }
 
 template <class Value>
@@ -163,7 +149,7 @@ std::string vtk_file(const char* type, const std::string& body) {
 template <int Dim>
 void write_vtu(const Panel<Dim>& panel, const std::filesystem::path& file) {
   const std::string grid = "<UnstructuredGrid>\n" + mesh(panel) + cell_data(panel) + "</Piece>\n</UnstructuredGrid>\n";
-  write_atomically(file, vtk_file("UnstructuredGrid", grid));
+  files::write_atomically(file, vtk_file("UnstructuredGrid", grid));
 }
 
 template void write_vtu(const Panel<2>&, const std::filesystem::path&);
@@ -174,7 +160,7 @@ void write_pvd(const std::vector<PvdEntry>& entries, const std::filesystem::path
   for (const auto& entry : entries) {
     body += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.compaction, escaped(entry.file));
   }
-  write_atomically(file, vtk_file("Collection", body + "</Collection>\n"));
+  files::write_atomically(file, vtk_file("Collection", body + "</Collection>\n"));
 }
 
 }  // namespace strandlab::io

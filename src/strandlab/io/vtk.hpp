@@ -15,7 +15,7 @@ namespace strandlab::io {
 //   ZZ XY YZ XZ; in a section Z is across, out of the picture), the fields of points that are shown as they are
 //   (lattice/points.hpp), velocity_m_s, strand_id (order in the panel), row (0 at the bottom), angle_deg (of the
 //   strand's grain in the panel's plane).
-// Replaces `file` atomically, throws as write_atomically(). Dim is 2 or 3.
+// Replaces `file` atomically, throws as files::write_atomically(). Dim is 2 or 3.
 template <int Dim>
 void write_vtu(const Panel<Dim>& panel, const std::filesystem::path& file);
 

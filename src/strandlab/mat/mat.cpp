@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
-#include "strandlab/core/json_text.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/core/text.hpp"
+#include "strandlab/files/atomic_file.hpp"
+#include "strandlab/files/json_text.hpp"
 
 namespace strandlab::mat {
 namespace {
@@ -251,7 +251,7 @@ void validate(const Mat& mat, const std::vector<std::string>& kinds, const std::
 
 Mat read(const std::filesystem::path& file, const std::vector<std::string>& kinds) {
   const auto source = file.string();
-  Mat mat = mat_from(read_json(file, "a mat file"), source);
+  Mat mat = mat_from(files::read_json(file, "a mat file"), source);
   validate(mat, kinds, source);
   for (auto& layer : mat.layers) {
     std::sort(layer.strands.begin(), layer.strands.end(),
@@ -271,7 +271,7 @@ std::string to_text(const Mat& mat) {
 
 void write(const Mat& mat, const std::filesystem::path& file) {
   validate(mat, {}, file.string());
-  write_atomically(file, to_text(mat));
+  files::write_atomically(file, to_text(mat));
 }
 
 }  // namespace strandlab::mat

@@ -76,6 +76,7 @@ class Press {
     keep_snapshots();
     try {
       while (state_.snapshots_done < static_cast<int>(schedule_.compactions.size())) {
+        stop_if_cancelled();
         advance();
         keep_frames();
         keep_snapshots();
@@ -193,6 +194,12 @@ class Press {
     last_good_ = checkpoint();
     good_step_ = engine_->state().step;
     good_compaction_ = compaction();
+  }
+
+  void stop_if_cancelled() {
+    if (!sink_.cancelled || !sink_.cancelled()) return;
+    if (sink_.checkpoint) save();
+    throw Cancelled();
   }
 
   // What was saved needs no copy to fall back on.

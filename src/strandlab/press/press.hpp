@@ -69,6 +69,7 @@ struct Sink {
   std::function<void(const Panel<Dim>&, int index)> frame;
   int frames = 0;
   std::function<void(const Progress&)> progress;  // a few times a second
+  std::function<bool()> cancelled;                // asked before every step; true ends the pressing
   double checkpoint_interval_s = 30;
 };
 
@@ -103,7 +104,8 @@ Setup<Dim> setup(const Panel<Dim>& mat, const Resolution& resolution, mpm::Side 
 
 // Presses a mat (or goes on from `resume`) through the schedule. Throws RunError with the newest good state, at most
 // 500 steps old and never older than one handed out before, handed to the checkpoint sink when a particle leaves the
-// grid, inverts, turns non-finite or the time step underflows.
+// grid, inverts, turns non-finite or the time step underflows. Throws Cancelled, with the state as it is handed to the
+// checkpoint sink, when the sink's cancelled() says so.
 template <int Dim>
 Outcome<Dim> press(const Panel<Dim>& mat, const Schedule& schedule, const Setup<Dim>& setup, const Sink<Dim>& sink,
                    const std::optional<Checkpoint<Dim>>& resume = std::nullopt);

@@ -18,7 +18,7 @@ double middle(std::size_t bin, std::size_t bins) {
   return (static_cast<double>(bin) + 0.5) / static_cast<double>(bins);
 }
 
-std::vector<io::CsvCell> bin_cells(const profile::Profile& p, std::size_t k) {
+std::vector<files::CsvCell> bin_cells(const profile::Profile& p, std::size_t k) {
   const double height = p.bin_height_mm();
   return {p.compaction, static_cast<double>(k) * height, static_cast<double>(k + 1) * height,
           middle(k, p.density_kg_m3.size()), p.density_kg_m3[k]};
@@ -81,18 +81,18 @@ profile::Profile over_mean(profile::Profile p) {
 
 }  // namespace
 
-io::CsvTable profile_table(const std::vector<profile::Profile>& states) {
-  io::CsvTable table({"compaction", "from_mm", "to_mm", "relative_height", "density_kg_m3"});
+files::CsvTable profile_table(const std::vector<profile::Profile>& states) {
+  files::CsvTable table({"compaction", "from_mm", "to_mm", "relative_height", "density_kg_m3"});
   for (const auto& p : states) {
     for (std::size_t k = 0; k < p.density_kg_m3.size(); ++k) table.add_row(bin_cells(p, k));
   }
   return table;
 }
 
-io::CsvTable profile_summary_table(const std::vector<profile::Profile>& states) {
-  io::CsvTable table(summary_columns({"compaction", "thickness_mm"}));
+files::CsvTable profile_summary_table(const std::vector<profile::Profile>& states) {
+  files::CsvTable table(summary_columns({"compaction", "thickness_mm"}));
   for (const auto& p : states) {
-    std::vector<io::CsvCell> row{p.compaction, p.thickness_mm};
+    std::vector<files::CsvCell> row{p.compaction, p.thickness_mm};
     for (const auto& [name, value] : named(profile::summarise(p))) row.emplace_back(value);
     table.add_row(row);
   }
@@ -106,8 +106,8 @@ std::optional<std::string> plot_density_profiles(const std::vector<profile::Prof
   return draw(plot, png);
 }
 
-io::CsvTable replicate_profile_table(const std::vector<Replicate>& replicates) {
-  io::CsvTable table({"replicate", "compaction", "from_mm", "to_mm", "relative_height", "density_kg_m3"});
+files::CsvTable replicate_profile_table(const std::vector<Replicate>& replicates) {
+  files::CsvTable table({"replicate", "compaction", "from_mm", "to_mm", "relative_height", "density_kg_m3"});
   for (const auto& replicate : replicates) {
     for (const auto& p : replicate.states) {
       for (std::size_t k = 0; k < p.density_kg_m3.size(); ++k) {
@@ -120,8 +120,8 @@ io::CsvTable replicate_profile_table(const std::vector<Replicate>& replicates) {
   return table;
 }
 
-io::CsvTable replicate_summary_table(const std::vector<Replicate>& replicates) {
-  io::CsvTable table(summary_columns({"compaction", "replicate", "thickness_mm"}));
+files::CsvTable replicate_summary_table(const std::vector<Replicate>& replicates) {
+  files::CsvTable table(summary_columns({"compaction", "replicate", "thickness_mm"}));
   for (std::size_t i = 0; i < replicates.front().states.size(); ++i) {
     std::vector<std::vector<double>> values;  // by column, by replicate
     for (const auto& replicate : replicates) {
@@ -129,7 +129,7 @@ io::CsvTable replicate_summary_table(const std::vector<Replicate>& replicates) {
       std::vector<double> numbers{p.thickness_mm};
       for (const auto& [name, value] : named(profile::summarise(p))) numbers.push_back(value);
       values.resize(numbers.size());
-      std::vector<io::CsvCell> row{p.compaction, replicate.name};
+      std::vector<files::CsvCell> row{p.compaction, replicate.name};
       for (std::size_t c = 0; c < numbers.size(); ++c) {
         row.emplace_back(numbers[c]);
         values[c].push_back(numbers[c]);
@@ -140,7 +140,7 @@ io::CsvTable replicate_summary_table(const std::vector<Replicate>& replicates) {
     for (const auto& [name, member] :
          {std::pair{"mean", &Summary::mean}, std::pair{"low", &Summary::low}, std::pair{"high", &Summary::high}}) {
       if (replicates.size() < 2 && member != &Summary::mean) continue;
-      std::vector<io::CsvCell> row{replicates.front().states[i].compaction, name};
+      std::vector<files::CsvCell> row{replicates.front().states[i].compaction, name};
       for (const auto& column : values) row.emplace_back(statistics::summarise(column).*member);
       table.add_row(row);
     }
@@ -148,8 +148,8 @@ io::CsvTable replicate_summary_table(const std::vector<Replicate>& replicates) {
   return table;
 }
 
-io::CsvTable mean_profile_table(const std::vector<profile::Mean>& means) {
-  io::CsvTable table(
+files::CsvTable mean_profile_table(const std::vector<profile::Mean>& means) {
+  files::CsvTable table(
       {"compaction", "relative_height", "density_kg_m3", "sd_kg_m3", "low_kg_m3", "high_kg_m3", "replicates"});
   for (const auto& mean : means) {
     for (std::size_t k = 0; k < mean.density_kg_m3.size(); ++k) {
@@ -192,8 +192,8 @@ std::optional<std::string> plot_profile_summaries(const std::vector<profile::Mea
   return draw(plot, png);
 }
 
-io::CsvTable measured_table(const std::vector<profile::Specimen>& specimens) {
-  io::CsvTable table({"specimen", "position_mm", "relative_height", "density_kg_m3"});
+files::CsvTable measured_table(const std::vector<profile::Specimen>& specimens) {
+  files::CsvTable table({"specimen", "position_mm", "relative_height", "density_kg_m3"});
   for (const auto& s : specimens) {
     for (std::size_t i = 0; i < s.position_mm.size(); ++i)
       table.add_row({s.name, s.position_mm[i], s.position_mm[i] / s.thickness_mm(), s.density_kg_m3[i]});
@@ -201,9 +201,9 @@ io::CsvTable measured_table(const std::vector<profile::Specimen>& specimens) {
   return table;
 }
 
-io::CsvTable comparison_table(const std::vector<profile::Mean>& simulated, const profile::Mean& measured) {
-  io::CsvTable table({"compaction", "simulated_thickness_mm", "measured_thickness_mm", "simulated_mean_kg_m3",
-                      "measured_mean_kg_m3", "rms_difference_kg_m3", "rms_difference_of_shapes"});
+files::CsvTable comparison_table(const std::vector<profile::Mean>& simulated, const profile::Mean& measured) {
+  files::CsvTable table({"compaction", "simulated_thickness_mm", "measured_thickness_mm", "simulated_mean_kg_m3",
+                         "measured_mean_kg_m3", "rms_difference_kg_m3", "rms_difference_of_shapes"});
   const auto real = measured.profile();
   for (const auto& mean : simulated) {
     const auto p = mean.profile();

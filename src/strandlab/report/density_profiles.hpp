@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "strandlab/io/csv.hpp"
+#include "strandlab/files/csv.hpp"
 #include "strandlab/profile/measured.hpp"
 #include "strandlab/profile/profile.hpp"
 
@@ -14,10 +14,10 @@ namespace strandlab::report {
 
 // profile.csv of a run, one row per compaction and bin: compaction, from_mm, to_mm (heights over the bottom face),
 // relative_height (of the bin's middle, 0 bottom face, 1 top face), density_kg_m3.
-io::CsvTable profile_table(const std::vector<profile::Profile>& states);
+files::CsvTable profile_table(const std::vector<profile::Profile>& states);
 
 // profile_summary.csv, one row per compaction: what profile::Summary holds.
-io::CsvTable profile_summary_table(const std::vector<profile::Profile>& states);
+files::CsvTable profile_summary_table(const std::vector<profile::Profile>& states);
 
 // Density against relative height, one curve per compaction. As report::Warning: a sentence where it is not drawn.
 [[nodiscard]] std::optional<std::string> plot_density_profiles(const std::vector<profile::Profile>& states,
@@ -32,13 +32,13 @@ struct Replicate {
 };
 
 // One row per replicate, compaction and bin: replicate, then the columns of profile_table().
-io::CsvTable replicate_profile_table(const std::vector<Replicate>& replicates);
+files::CsvTable replicate_profile_table(const std::vector<Replicate>& replicates);
 // One row per replicate and compaction, then the mean of the replicates and the ends of its 95 % t-interval (replicate
 // "mean", "low", "high"; the last two only for two or more).
-io::CsvTable replicate_summary_table(const std::vector<Replicate>& replicates);
+files::CsvTable replicate_summary_table(const std::vector<Replicate>& replicates);
 // One row per compaction and bin: compaction, relative_height, density_kg_m3 (mean), sd, low, high (95 % t-interval of
 // the mean), replicates.
-io::CsvTable mean_profile_table(const std::vector<profile::Mean>& means);
+files::CsvTable mean_profile_table(const std::vector<profile::Mean>& means);
 
 // Mean profiles with their 95 % t-interval as a band, one per compaction.
 [[nodiscard]] std::optional<std::string> plot_mean_profiles(const std::vector<profile::Mean>& means,
@@ -50,10 +50,10 @@ io::CsvTable mean_profile_table(const std::vector<profile::Mean>& means);
 // ---- Measured profiles ---------------------------------------------------------------------------------------------
 
 // One row per specimen and reading: specimen, position_mm (from the first reading), relative_height, density_kg_m3.
-io::CsvTable measured_table(const std::vector<profile::Specimen>& specimens);
+files::CsvTable measured_table(const std::vector<profile::Specimen>& specimens);
 // One row per compaction: simulated mean density, measured mean density, rms_difference_kg_m3 of the mean profiles, and
 // rms_difference_of_shapes, that of the profiles each over its own mean (no unit).
-io::CsvTable comparison_table(const std::vector<profile::Mean>& simulated, const profile::Mean& measured);
+files::CsvTable comparison_table(const std::vector<profile::Mean>& simulated, const profile::Mean& measured);
 // One compaction's simulated mean with its band, the measured specimens' mean over it, and the rms difference.
 [[nodiscard]] std::optional<std::string> plot_measured_profiles(const profile::Mean& simulated,
                                                                 const profile::Mean& measured,

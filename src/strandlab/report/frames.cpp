@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/files/base64.hpp"
 #include "strandlab/panel/lumped.hpp"
 #include "strandlab/panel/point_fields.hpp"
 
@@ -58,19 +59,6 @@ std::vector<Field> colourings() {
   fields.push_back({"stress_along_MPa", "Stress along panel", "MPa", 1, true,
                     [=](const Strand<2>& s, std::size_t p) { return stress(s, p)(0, 0); }});
   return fields;
-}
-
-std::string base64(const std::string& bytes) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? kDigits[group >> (18U - 6U * k) & 63U] : '=';
-  }
-  return text;
 }
 
 void append_number(std::string& bytes, std::int64_t n) {
@@ -225,8 +213,8 @@ Json pack_frames(const std::vector<Panel<2>>& frames, const glue::CuringOptions&
                                 {"time_ms", 1e3 * frame.time_s},
                                 {"bottom_mm", frame.bottom_mm},
                                 {"top_mm", frame.top_mm},
-                                {"cells", base64(cells)},
-                                {"glue", base64(pack_glue(frame, curing, quantum))}});
+                                {"cells", files::base64(cells)},
+                                {"glue", files::base64(pack_glue(frame, curing, quantum))}});
     before = std::move(now);
   }
   return packed;

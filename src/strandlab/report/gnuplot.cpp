@@ -19,8 +19,8 @@
 #include <system_error>
 #include <thread>
 
-#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/files/atomic_file.hpp"
 #include "strandlab/report/colour_map.hpp"
 
 namespace strandlab::report {
@@ -260,7 +260,7 @@ std::optional<std::string> draw_script(const std::string& script, const std::fil
   if (finished.status != 0 || finished.out.empty()) {
     return fmt::format("no picture {}: {} failed: {}", png.string(), gnuplot.program, finished.messages);
   }
-  write_atomically(png, finished.out);
+  files::write_atomically(png, finished.out);
   return std::nullopt;
 }
 

@@ -43,8 +43,8 @@ struct Gnuplot {
 };
 
 // Runs a gnuplot program that prints a PNG to its standard output and replaces `png` atomically by it. Returns a
-// sentence for the log where gnuplot is missing, fails or takes too long; throws as write_atomically(), and RunError
-// where the system has no pipes left.
+// sentence for the log where gnuplot is missing, fails or takes too long; throws as files::write_atomically(), and
+// RunError where the system has no pipes left.
 std::optional<std::string> draw_script(const std::string& script, const std::filesystem::path& png,
                                        const Gnuplot& gnuplot = {});
 

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <optional>
-#include <sstream>
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/version.hpp"
+#include "strandlab/files/text_file.hpp"
 
 // The bundled page becomes part of this object file (CMakeLists.txt names the file where there is one).
 #ifdef STRANDLAB_REPORT_PAGE
@@ -39,14 +37,6 @@ std::string built_in_page() {
 #endif
 }
 
-std::optional<std::string> read_page(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return std::nullopt;
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 // share/strandlab beside the bin folder that holds the program.
 fs::path installed_share() {
   std::error_code error;
@@ -62,7 +52,7 @@ std::string empty_page() {
     if (auto page = built_in_page(); !page.empty()) return page;
   }
   const auto file = (given ? fs::path(share) : installed_share()) / "report.html";
-  if (auto page = read_page(file)) return *page;
+  if (auto page = files::read_text(file)) return *page;
   throw InputError(
       fmt::format("{}: no report page{}. Get report.html of release {} and put it there, or name its folder in "
                   "STRANDLAB_SHARE; building with Node.js 18 or newer puts it into the program",

@@ -237,14 +237,14 @@ Morphology morphology(const Panel<2>& panel, double compaction) {
           areas(panel)};
 }
 
-io::CsvTable morphology_table(const std::vector<Morphology>& states) {
-  io::CsvTable table({"compaction", "compaction_reached", "overlap_fraction", "largest_overlap_fraction",
-                      "void_fraction", "outside_fraction", "grain_angle_mean_deg", "grain_angle_sd_deg",
-                      "grain_angle_lowest_deg", "grain_angle_highest_deg", "strand_thickness_strain_mean",
-                      "strand_thickness_strain_sd", "strand_thickness_strain_lowest",
-                      "strand_thickness_strain_highest"});
+files::CsvTable morphology_table(const std::vector<Morphology>& states) {
+  files::CsvTable table({"compaction", "compaction_reached", "overlap_fraction", "largest_overlap_fraction",
+                         "void_fraction", "outside_fraction", "grain_angle_mean_deg", "grain_angle_sd_deg",
+                         "grain_angle_lowest_deg", "grain_angle_highest_deg", "strand_thickness_strain_mean",
+                         "strand_thickness_strain_sd", "strand_thickness_strain_lowest",
+                         "strand_thickness_strain_highest"});
   for (const auto& s : states) {
-    std::vector<io::CsvCell> row{
+    std::vector<files::CsvCell> row{
         s.compaction,   s.compaction_reached, s.areas.overlap, s.areas.largest_overlap, s.areas.void_fraction(),
         s.areas.outside};
     for (const auto* h : {&s.grain_angle, &s.thickness_strain}) {
@@ -255,8 +255,8 @@ io::CsvTable morphology_table(const std::vector<Morphology>& states) {
   return table;
 }
 
-io::CsvTable histogram_table(const std::vector<Morphology>& states) {
-  io::CsvTable table({"compaction", "quantity", "from", "to", "fraction"});
+files::CsvTable histogram_table(const std::vector<Morphology>& states) {
+  files::CsvTable table({"compaction", "quantity", "from", "to", "fraction"});
   for (const auto& state : states) {
     for (const auto* h : {&state.grain_angle, &state.thickness_strain}) {
       for (std::size_t b = 0; b < h->fraction.size(); ++b) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "strandlab/io/csv.hpp"
+#include "strandlab/files/csv.hpp"
 #include "strandlab/panel/panel.hpp"
 
 namespace strandlab::report {
@@ -62,8 +62,8 @@ Morphology morphology(const Panel<2>& panel, double compaction);
 
 // One row per state: compaction, compaction_reached, overlap_fraction, largest_overlap_fraction, void_fraction,
 // outside_fraction and mean, sd, lowest and highest of both quantities.
-io::CsvTable morphology_table(const std::vector<Morphology>& states);
+files::CsvTable morphology_table(const std::vector<Morphology>& states);
 // One row per state, quantity and bin: compaction, quantity, from, to, fraction.
-io::CsvTable histogram_table(const std::vector<Morphology>& states);
+files::CsvTable histogram_table(const std::vector<Morphology>& states);
 
 }  // namespace strandlab::report

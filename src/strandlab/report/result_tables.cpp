@@ -4,10 +4,10 @@
 
 namespace strandlab::report {
 
-io::CsvTable press_table(const std::vector<press::Record>& records) {
-  io::CsvTable table({"compaction", "time_ms", "stress_MPa", "force_top_N", "force_bottom_N", "kinetic_mJ",
-                      "internal_mJ", "plastic_mJ", "elastic_mJ", "friction_mJ", "contact_mJ", "filter_mJ",
-                      "platen_work_mJ"});
+files::CsvTable press_table(const std::vector<press::Record>& records) {
+  files::CsvTable table({"compaction", "time_ms", "stress_MPa", "force_top_N", "force_bottom_N", "kinetic_mJ",
+                         "internal_mJ", "plastic_mJ", "elastic_mJ", "friction_mJ", "contact_mJ", "filter_mJ",
+                         "platen_work_mJ"});
   for (const auto& r : records) {
     table.add_row({r.compaction, r.time_ms, r.stress_MPa, r.force_top_N, r.force_bottom_N, r.kinetic_mJ,
                    r.internal_mJ(), r.plastic_mJ, r.elastic_mJ, r.friction_mJ, r.contact_mJ, r.filter_mJ,
@@ -16,9 +16,9 @@ io::CsvTable press_table(const std::vector<press::Record>& records) {
   return table;
 }
 
-io::CsvTable moduli_table(const std::vector<PanelModulus>& moduli) {
-  io::CsvTable table({"compaction", "test", "compliance_t_mm_per_MPa", "modulus_MPa", "reaction_modulus_MPa",
-                      "shear_free_modulus_MPa"});
+files::CsvTable moduli_table(const std::vector<PanelModulus>& moduli) {
+  files::CsvTable table({"compaction", "test", "compliance_t_mm_per_MPa", "modulus_MPa", "reaction_modulus_MPa",
+                         "shear_free_modulus_MPa"});
   for (const auto& m : moduli) {
     table.add_row({m.compaction, m.test, m.compliance_t_mm_per_MPa, m.modulus_MPa, m.reaction_modulus_MPa,
                    m.shear_free_modulus_MPa.value_or(std::nan(""))});
@@ -26,8 +26,8 @@ io::CsvTable moduli_table(const std::vector<PanelModulus>& moduli) {
   return table;
 }
 
-io::CsvTable slip_table(const vtest::Result& result) {
-  io::CsvTable table({"compliance_t_mm_per_MPa", "strand_a", "strand_b", "x_mm", "y_mm", "slip_mm_per_strain"});
+files::CsvTable slip_table(const vtest::Result& result) {
+  files::CsvTable table({"compliance_t_mm_per_MPa", "strand_a", "strand_b", "x_mm", "y_mm", "slip_mm_per_strain"});
   const auto rounded = [](double mm) { return std::round(1e4 * mm) / 1e4 + 0.0; };  // + 0: no -0
   for (const auto& s : result.slips) {
     table.add_row({result.slip_compliance_t_mm_per_MPa, static_cast<long long>(s.a), static_cast<long long>(s.b),

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "strandlab/io/csv.hpp"
+#include "strandlab/files/csv.hpp"
 #include "strandlab/press/press.hpp"
 #include "strandlab/vtest/vtest.hpp"
 
@@ -23,14 +23,14 @@ struct PanelModulus {
 
 // compaction, time_ms, stress_MPa, force_top_N, force_bottom_N, kinetic_mJ, internal_mJ, plastic_mJ, elastic_mJ,
 // friction_mJ, contact_mJ, filter_mJ, platen_work_mJ; one row per record.
-io::CsvTable press_table(const std::vector<press::Record>& records);
+files::CsvTable press_table(const std::vector<press::Record>& records);
 
 // compaction, test, compliance_t_mm_per_MPa, modulus_MPa, reaction_modulus_MPa, shear_free_modulus_MPa (nan but for 3-
 // and 4-point bending); one row per modulus.
-io::CsvTable moduli_table(const std::vector<PanelModulus>& moduli);
+files::CsvTable moduli_table(const std::vector<PanelModulus>& moduli);
 
 // compliance_t_mm_per_MPa, strand_a, strand_b (order in the panel, from 0), x_mm, y_mm, slip_mm_per_strain; one row per
 // glue point, in the order of the test. Rounded to 1e-4 mm.
-io::CsvTable slip_table(const vtest::Result& result);
+files::CsvTable slip_table(const vtest::Result& result);
 
 }  // namespace strandlab::report

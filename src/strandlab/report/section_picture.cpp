@@ -8,8 +8,8 @@
 #include <memory>
 #include <numbers>
 
-#include "strandlab/core/atomic_file.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/files/atomic_file.hpp"
 #include "strandlab/panel/point_fields.hpp"
 #include "strandlab/report/colour_map.hpp"
 
@@ -271,7 +271,7 @@ void draw_section(const Panel<2>& panel, const PictureOptions& options, const st
   const std::string title =
       options.title.empty() ? fmt::format("{:.1f} % compaction", 100 * std::abs(panel.compaction())) : options.title;
   picture.text(title, l.left, 1.2 * l.text, 1.15 * l.text, 0, 0.5);
-  write_atomically(png, picture.png());
+  files::write_atomically(png, picture.png());
 }
 
 }  // namespace strandlab::report

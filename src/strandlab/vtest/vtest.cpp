@@ -134,6 +134,7 @@ struct Trial {
   bool perfect_t, perfect_n;       // such bonds open by nothing: their tractions are found besides the penalty
   statics::LowerMatrix stiffness;  // of wood and glue
   double compliance_t = 0;         // mm/MPa, as asked for
+  std::function<void()> before_solve{};
 };
 
 // Displacements, and the tractions that perfect bonds carry in excess of their penalty springs.
@@ -206,6 +207,7 @@ using Vectors = std::vector<std::vector<double>>;
 // Responses to forces and given displacements, one pair for each load case, on the same supports.
 std::vector<Response> respond(const Trial& trial, const statics::Supports& supports, const Vectors& loads,
                               const Vectors& given, statics::Cholesky& cholesky, Result& result) {
+  if (trial.before_solve) trial.before_solve();
   statics::LowerMatrix matrix;
   {
     const Stopwatch watch(result.factor_s);
@@ -215,6 +217,7 @@ std::vector<Response> respond(const Trial& trial, const statics::Supports& suppo
   const Stopwatch watch(result.solve_s);
   std::vector<Response> responses;
   for (std::size_t k = 0; k < loads.size(); ++k) {
+    if (k > 0 && trial.before_solve) trial.before_solve();
     const auto rhs = statics::right_hand_side(trial.stiffness, supports, loads[k], given[k]);
     responses.push_back(respond(trial, matrix, supports, rhs, cholesky));
   }
@@ -410,7 +413,7 @@ void check_ends(const Panel<2>& mat, double compaction) {
                   mat.length_mm));
 }
 
-Result measure(const Panel<2>& panel, const Options& options) {
+Result measure(const Panel<2>& panel, const Options& options, const std::function<void()>& before_solve) {
   check(panel, options);
   check_span(panel, options);
   Result result;
@@ -432,7 +435,8 @@ Result measure(const Panel<2>& panel, const Options& options) {
   const double normal = glue_stiffness("D_n", options.compliance_n_mm_per_MPa, model.perfect, result.warnings);
   for (const double compliance : options.compliance_t_mm_per_MPa) {
     const double tangential = glue_stiffness("D_t", compliance, model.perfect, result.warnings);
-    Trial trial{model, {tangential, normal}, tangential == model.perfect, normal == model.perfect, {}, compliance};
+    Trial trial{model,      {tangential, normal}, tangential == model.perfect, normal == model.perfect, {},
+                compliance, before_solve};
     {
       const Stopwatch watch(result.assemble_s);
       trial.stiffness = model.stiffness->with(trial.glue);
@@ -453,12 +457,13 @@ Result measure(const Panel<2>& panel, const Options& options) {
   return result;
 }
 
-GapSensitivity gap_sensitivity(const Panel<2>& panel, const Options& options) {
-  const auto usual = measure(panel, options);
+GapSensitivity gap_sensitivity(const Panel<2>& panel, const Options& options,
+                               const std::function<void()>& before_solve) {
+  const auto usual = measure(panel, options, before_solve);
   const auto largest_change = [&](double factor) {
     auto changed = options;
     changed.curing.max_gap_mm *= factor;
-    const auto result = measure(panel, changed);
+    const auto result = measure(panel, changed, before_solve);
     double change = 0;
     for (std::size_t i = 0; i < usual.moduli.size(); ++i) {
       const double relative = result.moduli[i].modulus_MPa / usual.moduli[i].modulus_MPa - 1;

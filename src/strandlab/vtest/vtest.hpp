@@ -2,6 +2,7 @@
 // static).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -85,8 +86,9 @@ void check_ends(const Panel<2>& mat, double compaction);
 //    l between the loads: E = P S l^2/(48 I w_l)
 // with U the energy of wood and glue lines, h the platen gap and I = b h^3/12. Throws InputError for options it cannot
 // use, for a panel of which no strands connect both ends, and for one shorter than needed_length_mm() or in parts that
-// no glue connects where it is bent on supports; RunError for an inverted element.
-Result measure(const Panel<2>& panel, const Options& options);
+// no glue connects where it is bent on supports; RunError for an inverted element. `before_solve`, where given, is
+// called before each solution of the equations; what it throws ends the tests and passes through.
+Result measure(const Panel<2>& panel, const Options& options, const std::function<void()>& before_solve = nullptr);
 
 // Length that a panel of this thickness must have for the tests asked for: 3- and 4-point bending need the span and one
 // thickness beyond either support; 0 without them.
@@ -98,6 +100,7 @@ struct GapSensitivity {
   double halved = 0, doubled = 0;
 };
 // Three measurements; throws what measure() throws, also when half the gap leaves nothing that connects the ends.
-GapSensitivity gap_sensitivity(const Panel<2>& panel, const Options& options);
+GapSensitivity gap_sensitivity(const Panel<2>& panel, const Options& options,
+                               const std::function<void()>& before_solve = nullptr);
 
 }  // namespace strandlab::vtest

@@ -307,5 +307,19 @@ TEST(Frames, AreEvenAndComeAgainAfterAResume) {
   EXPECT_EQ(again, (std::vector<int>{4, 5, 6, 7, 8}));
 }
 
+// Stopped before its 40th step, a pressing hands out the state as it is and ends by Cancelled.
+TEST(Press, StopsWhenItIsCancelled) {
+  const auto panel = rows(1, 2 * kRow);
+  int asked = 0;
+  std::vector<press::Checkpoint<2>> checkpoints;
+  press::Sink<2> sink;
+  sink.cancelled = [&] { return ++asked == 40; };
+  sink.checkpoint = [&](const press::Checkpoint<2>& c) { checkpoints.push_back(c); };
+  EXPECT_THROW(press::press<2>(panel, schedule_to({0.02}), small_setup(panel), sink), Cancelled);
+  EXPECT_EQ(asked, 40);
+  ASSERT_EQ(checkpoints.size(), 1U);
+  EXPECT_EQ(checkpoints[0].engine.step, 39);
+}
+
 }  // namespace
 }  // namespace strandlab

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "strandlab/io/case.hpp"
+#include "strandlab/case/case.hpp"
 #include "support/report.hpp"
 
 namespace strandlab::io {

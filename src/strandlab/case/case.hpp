@@ -1,0 +1,103 @@
+// A case: everything a user can decide about a panel, from the mat to the virtual tests.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "strandlab/case/hotpress.hpp"
+#include "strandlab/mat/form.hpp"
+#include "strandlab/mpm/engine.hpp"
+#include "strandlab/panel/panel.hpp"
+#include "strandlab/press/press.hpp"
+#include "strandlab/vtest/vtest.hpp"
+
+namespace strandlab::cases {
+
+// [kinds.NAME]: a kind of strand as the case names it.
+struct KindSettings {
+  std::string name;
+  std::string material = "poplar";  // built in, or one of [materials]
+  double angle_deg = 0;
+  mat::StrandStatistics statistics;               // mm
+  double angle_spread_deg = 0;                    // each strand's angle is uniform within angle_deg +- this
+  double thickness_mm = 0;                        // 0: layer_thickness_mm of the case
+  double yield_factor = 1, stiffness_factor = 1;  // softening in the press, StrandKind
+  wood::Law law = wood::Law::kHill;
+};
+
+// [materials.NAME]: a user's material, a built-in one with some constants changed.
+struct MaterialSettings {
+  std::string base = "poplar";
+  std::string species;  // elastic constants that are not given follow from E_L by its ratios; empty: from the base
+  wood::Material material;
+};
+
+// Where a case says what only its use can judge, as messages open: "panel.toml:12: mat.file = \"x.json\"". Empty for
+// a case that was not read.
+struct CasePlaces {
+  std::string rows, mat_file, bondline_file;
+};
+
+inline constexpr int kPointsPerCell = 2;  // material points per cell and axis, as press::Resolution has it
+
+// The defaults are the main job: an OSB mat of 20 rows pressed to 40 %.
+struct Case {
+  Case();
+
+  std::string name = "case";
+  double length_mm = 100;
+  double layer_thickness_mm = 0.8;
+  std::vector<std::string> rows{"surface*5", "core*10", "surface*5"};  // bottom to top, "kind" or "kind*count"
+  std::string mat_file;                                                // absolute path; empty: random forming
+  wood::OffAxis off_axis = wood::OffAxis::kExact;
+  std::vector<KindSettings> kinds;
+  std::vector<MaterialSettings> materials;
+  std::vector<ResinSettings> resins;
+  HotPressSettings hotpress;
+  press::Schedule schedule;
+  mpm::Side sides = mpm::Side::kRoller;
+  press::Resolution grid;
+  mpm::Options mpm;  // its thread count is set from `threads` when a run starts
+  vtest::Options test;
+  std::string bondline_file, bondline_group;  // absolute path of a `strandlab bondline` result, and its group; or empty
+  int threads = 0;                            // 0: all cores
+  std::uint64_t seed = 1;
+  double checkpoint_interval_s = 30;
+  CasePlaces places;
+};
+
+// Reads a case file and applies overrides ("key.path=value", TOML values or bare words). Throws InputError with file,
+// line, key, what was given and what is allowed for anything a run could not use; relative mat.file and
+// glue.from_bondline count from the case file. With glue.from_bondline the glue compliance is that of glue.group there.
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+// The same from the text of a case; `source` stands for the file in messages.
+Case case_from_text(const std::string& text, const std::string& source, const std::vector<std::string>& overrides = {});
+
+// Ready cases of `strandlab init`: "osb", "osl", "plywood", "lvl", ... Throws InputError for another name.
+const std::vector<std::string>& ready_cases();
+Case ready_case(const std::string& name);
+// What it is: lines of text, the first a title.
+std::string ready_case_title(const std::string& name);
+
+// Rows of the layup with the statistics, thickness and angles of their kinds. Throws InputError for a row that names no
+// kind.
+mat::Layup layup(const Case& c);
+std::vector<StrandKind> strand_kinds(const Case& c);
+// The same and a kind for each of the case's materials: a strand of a mat file may name any of them, also one that no
+// kind uses.
+std::vector<StrandKind> kinds_and_materials(const Case& c);
+// The mat of a case: read from its mat file, else formed with its seed. Throws InputError for a bad mat file, and for
+// rows that would make a panel beyond the memory that is free.
+mat::Mat make_mat(const Case& c);
+// Its weight and what it is made of.
+Weight weigh(const Case& c, const mat::Mat& mat);
+// One line for each of the case's materials whose constants follow from a species' ratios: which, from what, and where
+// the ratios are from; or of which only E_L was changed: which constants did not follow it.
+std::vector<std::string> derived_constants(const Case& c);
+// The panel before pressing, with the material points of the case's grid. Throws InputError when it does not fit into
+// the memory that is free.
+Panel<2> make_panel(const Case& c, const mat::Mat& mat);
+
+}  // namespace strandlab::cases

@@ -1,0 +1,59 @@
+// The one table of case keys: from it come reading and validation, `strandlab init` and `check`, and docs/cases.md.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "strandlab/case/case.hpp"
+
+namespace strandlab::cases {
+
+using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, std::vector<std::string>>;
+
+// Numbers a key accepts; for a list, each of its entries.
+struct Range {
+  double lo = -std::numeric_limits<double>::infinity(), hi = std::numeric_limits<double>::infinity();
+  bool lo_open = false, hi_open = false;  // the limit itself is excluded
+  bool infinite = false;                  // `inf` is accepted
+  bool zero = false;                      // 0 is accepted too, below lo
+  bool increasing = false;                // lists: each entry greater than the one before
+};
+
+struct Key {
+  std::string path;  // "press.speed_m_s"; "kinds.*.angle_deg" for every [kinds.NAME]
+  std::string unit;  // "" where there is none
+  Range range;
+  std::string help;
+  std::function<std::vector<std::string>(const Case&)> choices;  // of texts; empty: any text
+  bool names_file = false;                                       // a text: relative ones count from the case file
+  bool changes_results = true;  // false: runs that differ in this key alone give the same bits
+  // `name` is what stands for the * of the path, "" where there is none. set() expects a value that passed the checks.
+  std::function<Value(const Case&, const std::string& name)> get;
+  std::function<void(Case&, const std::string& name, const Value&)> set;
+};
+
+struct Section {
+  std::string path;  // "press", "kinds.*"
+  std::string help;
+};
+
+const std::vector<Section>& sections();
+const std::vector<Key>& keys();  // by section
+
+// The section of a key ("kinds.*" of "kinds.*.angle_deg") and its own name ("angle_deg").
+std::string section_of(const Key& key);
+std::string name_of(const Key& key);
+// Names that stand for the * of a section in this case; {""} for a section without one, {} for those of [hotpress] in a
+// case that has none.
+std::vector<std::string> instances(const Case& c, const std::string& section);
+
+// Plain words for messages and the reference page: "a number", "greater than 0", the value as TOML.
+std::string type_name(const Value& value);
+std::string allowed(const Key& key, const Case& c);
+std::string to_toml(const Value& value);
+
+}  // namespace strandlab::cases

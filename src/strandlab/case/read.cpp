@@ -1,0 +1,671 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <regex>
+#include <sstream>
+
+#include "strandlab/bondline/analysis.hpp"
+#include "strandlab/case/case.hpp"
+#include "strandlab/case/keys.hpp"
+#include "strandlab/core/error.hpp"
+#include "strandlab/core/nearest.hpp"
+#include "strandlab/core/text.hpp"
+#include "strandlab/transfer/cure.hpp"
+
+namespace strandlab::cases {
+namespace {
+
+namespace fs = std::filesystem;
+using Path = std::vector<std::string>;  // of a key, its parts between dots
+
+// A value or a section as it was given, and where.
+struct Given {
+  Path path;
+  const toml::node* node = nullptr;
+  std::string where;  // opens messages: "panel.toml:12", "--set press.speed_m_s=..."
+};
+
+struct Source {
+  toml::table table;
+  std::string name;  // of the file, or "--set ..."
+  bool has_lines = false;
+  fs::path folder;  // relative file names count from here
+};
+
+// ---- Text to tables -------------------------------------------------------------------------------------------------
+
+constexpr std::size_t kLongestReason = 200;  // characters of a library's sentence
+
+std::string line_at(const std::string& text, std::size_t number) {
+  std::istringstream lines(text);
+  std::string line;
+  for (std::size_t i = 0; i < number; ++i) std::getline(lines, line);
+  return line;
+}
+
+// "1,5" and "-0,25" with a decimal point; nothing for another text.
+std::optional<std::string> with_decimal_point(const std::string& value) {
+  static const std::regex kDecimalComma(R"(\s*([-+]?[0-9]{1,18}),([0-9]{1,18})\s*)");
+  std::smatch part;
+  if (value.size() > 50 || !std::regex_match(value, part, kDecimalComma)) return std::nullopt;
+  return fmt::format("{}.{}", part[1].str(), part[2].str());
+}
+
+// What most likely is meant by a value that is not TOML, to end the message; empty where nothing is known.
+std::string hint(const std::string& value) {
+  if (const auto number = with_decimal_point(value.substr(0, value.find('#'))))
+    return fmt::format("; numbers have a decimal point: {}", *number);
+  if (value.find('\\') != std::string::npos)
+    return "; \\ has a meaning of its own in TOML: write / in file names, or single quotes: 'C:\\mats\\a.json'";
+  return {};
+}
+
+toml::table parse_toml(const std::string& text, const std::string& source) {
+  refuse_other_than_utf8(text, source);
+  try {
+    return toml::parse(text, source);
+  } catch (const toml::parse_error& e) {
+    const auto line = line_at(text, e.source().begin.line);
+    const auto equals = line.find('=');
+    throw InputError(fmt::format("{}:{}: not valid TOML: {}{}", source, e.source().begin.line,
+                                 shortened(e.description(), kLongestReason),
+                                 equals == std::string::npos ? "" : hint(line.substr(equals + 1))));
+  }
+}
+
+// A list of bare words, [a, b], with its words quoted; nothing where it is not one.
+std::optional<std::string> quote_bare_words(const std::string& value) {
+  const auto plain = [](const std::string& text) { return text.find_first_of("\"'[]{}\\,=#") == std::string::npos; };
+  const auto trimmed = [](const std::string& text) {
+    const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+    return first == std::string::npos ? std::string() : text.substr(first, last - first + 1);
+  };
+  if (plain(value)) return fmt::format("\"{}\"", value);
+  if (value.size() < 2 || value.front() != '[' || value.back() != ']') return std::nullopt;
+  std::string list;
+  std::istringstream items(value.substr(1, value.size() - 2));
+  for (std::string item; std::getline(items, item, ',');) {
+    item = trimmed(item);
+    if (item.empty() || !plain(item)) return std::nullopt;
+    list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", item);
+  }
+  return "[" + list + "]";
+}
+
+// Numbers written .5 or -.5 as TOML wants them, 0.5; anything else as it is.
+std::string complete_numbers(const std::string& value) {
+  std::string result;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const bool opens = i == 0 || std::string("[, \t+-").find(value[i - 1]) != std::string::npos;
+    if (value[i] == '.' && opens && i + 1 < value.size() && value[i + 1] >= '0' && value[i + 1] <= '9') result += '0';
+    result += value[i];
+  }
+  return result;
+}
+
+Source parse_override(const std::string& text) {
+  Source source;
+  source.name = "--set " + shortened(text);
+  if (!is_utf8(text) || text.find('\0') != std::string::npos)
+    throw InputError(fmt::format("{}: holds bytes that are no text in UTF-8", printable(source.name)));
+  source.folder = fs::current_path();
+  const auto equals = text.find('=');
+  const bool one_line = text.find_first_of("\n\r") == std::string::npos;
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size() || !one_line) {
+    throw InputError(fmt::format("{}: expected key.path=value, as in --set press.speed_m_s=8", source.name));
+  }
+  const auto key = text.substr(0, equals), value = text.substr(equals + 1);
+  for (const auto& candidate : {value, complete_numbers(value)}) {
+    try {
+      source.table = toml::parse(fmt::format("{} = {}", key, candidate));
+      return source;
+    } catch (const toml::parse_error&) {
+      // A word without quotes is not TOML; the shell eats quotes, so it is accepted below.
+    }
+  }
+  const auto words = quote_bare_words(value);
+  try {
+    if (words) {
+      source.table = toml::parse(key + " = " + *words);
+      return source;
+    }
+  } catch (const toml::parse_error&) {
+    // Then the key itself is malformed.
+  }
+  throw InputError(
+      fmt::format("{}: expected key.path=value with a TOML value or a bare word, as in "
+                  "--set press.compactions=[0,0.2]{}",
+                  source.name, hint(value)));
+}
+
+// ---- Tables to keys -------------------------------------------------------------------------------------------------
+
+Path split(const std::string& dotted) {
+  Path parts;
+  std::istringstream stream(dotted);
+  for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
+  return parts;
+}
+
+bool fits(const Path& pattern, const Path& path) {
+  return pattern.size() == path.size() && std::equal(pattern.begin(), pattern.end(), path.begin(),
+                                                     [](const auto& a, const auto& b) { return a == "*" || a == b; });
+}
+
+const Key* find_key(const Path& path) {
+  const auto it = std::find_if(keys().begin(), keys().end(), [&](const Key& k) { return fits(split(k.path), path); });
+  return it == keys().end() ? nullptr : &*it;
+}
+
+// The name that stands for the * of the key's path.
+std::string instance_of(const Path& path) {
+  return path.size() == 3 ? path[1] : std::string();
+}
+
+bool is_section(const Path& path) {
+  return std::any_of(sections().begin(), sections().end(), [&](const Section& s) {
+    const auto pattern = split(s.path);
+    return fits(pattern, path) || (pattern.size() == 2 && path.size() == 1 && pattern[0] == path[0]);
+  });
+}
+
+// Ends a sentence about an unknown name.
+std::string did_you_mean(const std::string& given, const std::vector<std::string>& known) {
+  const auto near = nearest(given, known);
+  return near.empty() ? "." : fmt::format("; did you mean {}?", near);
+}
+
+// As messages name a key or a section.
+std::string name_of(const Path& path) {
+  return shortened(fmt::format("{}", fmt::join(path, ".")));
+}
+
+[[noreturn]] void throw_unknown_section(const Given& given) {
+  std::vector<std::string> known;
+  for (const auto& s : sections()) {
+    const auto first = split(s.path)[0];
+    if (std::find(known.begin(), known.end(), first) == known.end()) known.push_back(first);
+  }
+  const auto name = name_of(given.path);
+  throw InputError(fmt::format("{}: unknown section [{}]{} Sections: {}", given.where, name,
+                               did_you_mean(given.path[0], known), fmt::join(known, ", ")));
+}
+
+// The nearest key of the same section, else the same name in another section, else the nearest of all.
+std::string nearest_key(const Path& path, const std::vector<std::string>& same_section) {
+  if (const auto near = nearest(path.back(), same_section); !near.empty())
+    return did_you_mean(path.back(), same_section);
+  std::vector<std::string> everywhere;
+  for (const auto& key : keys()) {
+    if (name_of(key) == path.back()) return fmt::format("; did you mean {}?", key.path);
+    everywhere.push_back(key.path);
+  }
+  return did_you_mean(fmt::format("{}", fmt::join(path, ".")), everywhere);
+}
+
+[[noreturn]] void throw_unknown_key(const Given& given) {
+  const auto name = name_of(given.path);
+  const Path section(given.path.begin(), given.path.end() - 1);
+  if (is_section(given.path)) {
+    throw InputError(fmt::format("{}: {} is a section: its keys follow a line [{}]", given.where, name, name));
+  }
+  std::vector<std::string> here;
+  for (const auto& key : keys()) {
+    if (fits(split(section_of(key)), section)) here.push_back(name_of(key));
+  }
+  if (here.empty() && !section.empty()) throw_unknown_section({section, nullptr, given.where});
+  std::string known = "Sections:";
+  for (const auto& s : sections()) known += " [" + s.path + "]";
+  if (!here.empty()) known = fmt::format("Keys of [{}]: {}", name_of(section), fmt::join(here, ", "));
+  throw InputError(fmt::format("{}: unknown key {}{} {}", given.where, name, nearest_key(given.path, here), known));
+}
+
+void flatten(const Source& source, const toml::table& table, const Path& prefix, std::vector<Given>& out) {
+  for (auto&& [key, node] : table) {
+    Given given{prefix, &node, source.name};
+    given.path.emplace_back(key.str());
+    if (source.has_lines) given.where += fmt::format(":{}", node.source().begin.line);
+    const bool known = find_key(given.path) != nullptr;
+    if (known || !node.is_table()) {
+      if (!known) throw_unknown_key(given);
+      out.push_back(std::move(given));
+      continue;
+    }
+    if (!is_section(given.path)) throw_unknown_section(given);
+    out.push_back({given.path, nullptr, given.where});
+    flatten(source, *node.as_table(), given.path, out);
+  }
+}
+
+// ---- Values ---------------------------------------------------------------------------------------------------------
+
+std::string type_of(const toml::node& node) {
+  if (node.is_table()) return "a table";
+  if (node.is_array()) return "a list";
+  if (node.is_string()) return "a text";
+  if (node.is_integer()) return "a whole number";
+  if (node.is_floating_point()) return "a number";
+  if (node.is_boolean()) return "true or false";
+  return "a date or time";
+}
+
+// A value as the user may have written it, on one line; 3.0 is no whole number and must not look like one.
+std::string as_given(const toml::node& node) {
+  if (const auto* array = node.as_array()) {
+    std::vector<std::string> items;
+    for (const auto& item : *array) items.push_back(as_given(item));
+    return fmt::format("[{}]", fmt::join(items, ", "));
+  }
+  if (const auto* text = node.as_string()) return fmt::format("\"{}\"", text->get());
+  if (const auto* real = node.as_floating_point()) {
+    const auto text = fmt::format("{}", real->get());
+    return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+  }
+  std::ostringstream text;
+  node.visit([&](const auto& n) { text << n; });
+  return text.str();
+}
+
+std::optional<double> number(const toml::node& node) {
+  if (!node.is_integer() && !node.is_floating_point()) return std::nullopt;
+  return node.value<double>();
+}
+
+// The node as a value of the same type as `like`; nothing where the types differ.
+std::optional<Value> convert(const toml::node& node, const Value& like) {
+  if (std::holds_alternative<bool>(like) && node.is_boolean()) return Value(node.value_or(false));
+  if (std::holds_alternative<std::int64_t>(like) && node.is_integer()) return Value(*node.value<std::int64_t>());
+  if (std::holds_alternative<std::string>(like) && node.is_string()) return Value(*node.value<std::string>());
+  if (std::holds_alternative<double>(like)) {
+    const auto v = number(node);
+    return v ? std::optional<Value>(*v) : std::nullopt;
+  }
+  const auto* array = node.as_array();
+  if (!array) return std::nullopt;
+  if (std::holds_alternative<std::vector<double>>(like)) {
+    std::vector<double> list;
+    for (const auto& item : *array) {
+      const auto v = number(item);
+      if (!v) return std::nullopt;
+      list.push_back(*v);
+    }
+    return list;
+  }
+  if (!std::holds_alternative<std::vector<std::string>>(like)) return std::nullopt;
+  std::vector<std::string> list;
+  for (const auto& item : *array) {
+    if (!item.is_string()) return std::nullopt;
+    list.push_back(*item.value<std::string>());
+  }
+  return list;
+}
+
+// A number with 64 bits for its digits: whole numbers and doubles are both exact in it.
+using Exact = long double;
+static_assert(std::numeric_limits<Exact>::digits >= 63);
+
+bool inside(const Range& r, Exact v) {
+  if (std::isnan(v)) return false;
+  if (std::isinf(v)) return r.infinite && v > 0;
+  if (r.zero && v == 0) return true;
+  return (r.lo_open ? v > r.lo : v >= r.lo) && (r.hi_open ? v < r.hi : v <= r.hi);
+}
+
+std::vector<Exact> numbers_of(const Value& value) {
+  if (const auto* i = std::get_if<std::int64_t>(&value)) return {static_cast<Exact>(*i)};
+  if (const auto* d = std::get_if<double>(&value)) return {*d};
+  if (const auto* list = std::get_if<std::vector<double>>(&value)) return {list->begin(), list->end()};
+  return {};
+}
+
+std::vector<std::string> texts_of(const Value& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return {*text};
+  if (const auto* list = std::get_if<std::vector<std::string>>(&value)) return *list;
+  return {};
+}
+
+bool empty_list(const Value& value) {
+  const auto* numbers = std::get_if<std::vector<double>>(&value);
+  const auto* texts = std::get_if<std::vector<std::string>>(&value);
+  return (numbers && numbers->empty()) || (texts && texts->empty());
+}
+
+// Points at an entry of a list, 1 the first: "entry 2, nan, "; nothing for a value that is no list.
+std::string entry(const toml::node& node, std::size_t index) {
+  const auto* list = node.as_array();
+  return list ? fmt::format("entry {}, {}, ", index + 1, shortened(as_given(*list->get(index)))) : std::string();
+}
+
+void check_numbers(const Range& range, const std::string& rule, const Value& value, const toml::node& node,
+                   const std::string& opening) {
+  const auto numbers = numbers_of(value);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (inside(range, numbers[i])) continue;
+    const bool never = std::isinf(numbers[i]) && !range.infinite && !rule.empty();
+    throw InputError(fmt::format("{}: {}must be {}{}", opening, entry(node, i), never ? "a finite number, " : "",
+                                 rule.empty() ? "a finite number" : rule));
+  }
+  if (!range.increasing) return;
+  const auto stop = std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>());
+  if (stop == numbers.end()) return;
+  const auto i = static_cast<std::size_t>(stop - numbers.begin());
+  throw InputError(
+      fmt::format("{}: {}is not above {}but the list must be {}", opening, entry(node, i + 1), entry(node, i), rule));
+}
+
+void check_value(const Key& key, const Case& c, const Value& value, const toml::node& node,
+                 const std::string& opening) {
+  if (empty_list(value)) throw InputError(opening + ": the list must not be empty");
+  const auto rule = allowed(key, c);
+  check_numbers(key.range, rule, value, node, opening);
+  const auto texts = texts_of(value);
+  if (!key.choices) return;
+  const auto known = key.choices(c);
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (std::find(known.begin(), known.end(), texts[i]) != known.end()) continue;
+    throw InputError(fmt::format("{}: {}\"{}\" is not {}{}", opening,
+                                 node.is_array() ? fmt::format("entry {}, ", i + 1) : std::string(),
+                                 shortened(texts[i]), rule, did_you_mean(texts[i], known)));
+  }
+}
+
+// Key, value and unit as messages open: "panel.toml:12: press.speed_m_s = 3 m/s".
+std::string opening_of(const Given& given, const Key& key) {
+  return fmt::format("{}: {} = {}{}", given.where, name_of(given.path), shortened(as_given(*given.node)),
+                     key.unit.empty() ? "" : " " + key.unit);
+}
+
+// The same for a file that may prove unreadable: a control character in its name most likely was a backslash.
+std::string opening_of_file(const Given& given, const Key& key) {
+  auto opening = opening_of(given, key);
+  const auto* text = given.node->as_string();
+  const auto is_control = [](unsigned char ch) { return ch < 0x20 || ch == 0x7F; };
+  if (!text || std::none_of(text->get().begin(), text->get().end(), is_control)) return opening;
+  return opening +
+         " (in double quotes \\t is a tab and \\n a new line; write / in file names, or single quotes: "
+         "'C:\\mats\\a.json')";
+}
+
+[[noreturn]] void throw_wrong_type(const Given& given, const Value& like, const std::string& opening) {
+  const auto& node = *given.node;
+  const auto must_be = fmt::format("{}: must be {}", opening, type_name(like));
+  if (std::holds_alternative<std::int64_t>(like) && node.is_floating_point())
+    throw InputError(must_be + ", such as 3: this is written with a decimal point or an exponent");
+  if (const auto* list = node.as_array(); list && like.index() >= Value(std::vector<double>()).index()) {
+    const bool numbers = std::holds_alternative<std::vector<double>>(like);
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const auto& item = *list->get(i);
+      if (numbers ? number(item).has_value() : item.is_string()) continue;
+      throw InputError(fmt::format("{}, {}is {}", must_be, entry(node, i), type_of(item)));
+    }
+  }
+  const auto decimal = node.is_string() ? with_decimal_point(node.as_string()->get()) : std::nullopt;
+  throw InputError(fmt::format("{}, this is {}{}", must_be, type_of(node),
+                               decimal ? fmt::format("; numbers have a decimal point: {}", *decimal) : ""));
+}
+
+void apply(Case& c, const Given& given) {
+  const auto* key = find_key(given.path);
+  const auto name = instance_of(given.path);
+  const auto opening = opening_of(given, *key);
+  const auto like = key->get(c, name);
+  const auto value = convert(*given.node, like);
+  if (!value) throw_wrong_type(given, like, opening);
+  check_value(*key, c, *value, *given.node, opening);
+  key->set(c, name, *value);
+}
+
+// [kinds.NAME], [materials.NAME], [resins.NAME] and [hotpress] come to be when they are first mentioned.
+void make_instance(Case& c, const Given& given) {
+  if (given.path[0] == "hotpress") c.hotpress.given = true;
+  const bool named = std::any_of(sections().begin(), sections().end(),
+                                 [&](const Section& s) { return s.path == given.path[0] + ".*"; });
+  if (given.path.size() != 2 || !named) return;
+  const auto& name = given.path[1];
+  const auto section = given.path[0] + ".*";
+  const bool plain =
+      !name.empty() &&
+      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
+  if (!plain) {
+    throw InputError(fmt::format("{}: [{}.{}]: a name is made of letters, digits, _ and -", given.where, given.path[0],
+                                 shortened(name)));
+  }
+  const auto existing = instances(c, section);
+  if (std::find(existing.begin(), existing.end(), name) != existing.end()) return;
+  if (section == "kinds.*") {
+    KindSettings kind;
+    kind.name = name;
+    c.kinds.push_back(kind);
+    return;
+  }
+  if (section == "resins.*") {
+    for (const auto& built_in : transfer::resins()) {
+      if (built_in.name == name)
+        throw InputError(
+            fmt::format("{}: [resins.{}]: a built-in resin has this name, choose another", given.where, name));
+    }
+    c.resins.push_back({name});
+    return;
+  }
+  for (const auto& built_in : wood::library()) {
+    if (built_in.name == name) {
+      throw InputError(
+          fmt::format("{}: [materials.{}]: a built-in material has this name, choose another", given.where, name));
+    }
+  }
+  MaterialSettings settings;
+  settings.material = wood::library().front();
+  settings.base = settings.material.name;
+  settings.material.name = name;
+  c.materials.push_back(settings);
+}
+
+// ---- Rules between keys ---------------------------------------------------------------------------------------------
+
+// Where a key, or else anything of its section, was given last; the source itself for defaults.
+std::string where_of(const std::vector<Given>& given, const std::string& source, const Path& path) {
+  std::string where = source;
+  for (const auto& g : given) {
+    const bool same_section =
+        g.path.size() >= path.size() - 1 && std::equal(path.begin(), path.end() - 1, g.path.begin());
+    if (same_section && where == source) where = g.where;
+  }
+  for (const auto& g : given) {
+    if (g.path == path) where = g.where;
+  }
+  return where;
+}
+
+void check_kind(const KindSettings& kind, const std::vector<Given>& given, const std::string& source) {
+  const auto& s = kind.statistics;
+  const auto fail = [&](const char* key, const std::string& message) {
+    throw InputError(fmt::format("{}: kinds.{}.{} {}", where_of(given, source, {"kinds", kind.name, key}),
+                                 shortened(kind.name), key, message));
+  };
+  if (s.length_sd_mm > s.length_mm) {
+    fail("length_sd_mm",
+         fmt::format("= {} mm: must not exceed the mean, length_mm = {}: the truncated normal distribution "
+                     "degenerates",
+                     s.length_sd_mm, s.length_mm));
+  }
+  if (s.gap_sd_mm > s.gap_mm) {
+    fail("gap_sd_mm",
+         fmt::format("= {} mm: must not exceed the mean, gap_mm = {}: the truncated normal distribution degenerates",
+                     s.gap_sd_mm, s.gap_mm));
+  }
+  if (s.length_mm == 0 && s.gap_mm > 0) {
+    fail("length_mm",
+         fmt::format("= 0 means that one strand fills the row, so gap_mm must be 0 too, not {}", s.gap_mm));
+  }
+}
+
+// A kind that no row is of is most likely the misspelt name of another, whose keys would have no effect.
+void refuse_unused_kinds(const Case& c, const mat::Layup& layup, const std::vector<Given>& given,
+                         const std::string& source) {
+  std::vector<std::string> names{"surface", "core"};
+  for (const auto& row : layup.rows) {
+    if (std::find(names.begin(), names.end(), row.kind) == names.end()) names.push_back(row.kind);
+  }
+  for (const auto& kind : c.kinds) {
+    if (std::find(names.begin(), names.end(), kind.name) != names.end()) continue;
+    const auto near = nearest(kind.name, names);
+    throw InputError(fmt::format("{}: [kinds.{}]: no row in mat.rows is of this kind{} Kinds of rows: {}",
+                                 where_of(given, source, {"kinds", kind.name, ""}), shortened(kind.name),
+                                 near.empty() ? "." : fmt::format("; did you mean {}?", near), quoted_list(names)));
+  }
+}
+
+void check_case(const Case& c, const std::vector<Given>& given, const std::string& source) {
+  for (const auto& kind : c.kinds) check_kind(kind, given, source);
+  for (const auto& settings : c.materials) {
+    const auto& name = settings.material.name;
+    try {
+      wood::validate(settings.material);
+    } catch (const InputError& e) {
+      throw InputError(fmt::format("{}: [materials.{}]: {}", where_of(given, source, {"materials", name, ""}),
+                                   shortened(name), e.what()));
+    }
+  }
+  for (const auto& kind : strand_kinds(c)) {
+    try {
+      wood::validate(kind.material);
+    } catch (const InputError& e) {
+      throw InputError(fmt::format("{}: [kinds.{}] with law = \"{}\": {}",
+                                   where_of(given, source, {"kinds", kind.name, "law"}), shortened(kind.name),
+                                   wood::name(kind.material.law), e.what()));
+    }
+  }
+  check_hotpress(c, [&](const std::string& key, const std::string& message) {
+    throw InputError(fmt::format("{}: {}: {}", where_of(given, source, split(key)), key, message));
+  });
+  mat::Layup rows;
+  try {
+    rows = layup(c);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}: mat.rows: {}", where_of(given, source, {"mat", "rows"}), e.what()));
+  }
+  if (c.mat_file.empty()) refuse_unused_kinds(c, rows, given, source);
+}
+
+// Base materials before their constants, E_L before the species whose ratios it scales, those before the constants they
+// give, materials before the kinds that name them.
+int order_of(const Given& given) {
+  if (given.path[0] != "materials") return 4;
+  const auto& key = given.path.back();
+  if (key == "base") return 0;
+  if (key == "E_L_MPa") return 1;
+  return key == "species" ? 2 : 3;
+}
+
+// A file name that counts from `folder`; an empty one stays empty.
+void make_absolute(std::string& file, const fs::path& folder) {
+  if (!file.empty()) file = fs::absolute(folder / file).lexically_normal().string();
+}
+
+// The glue compliance that a bond-line result gives, where the case names one.
+void use_bondline(Case& c, const fs::path& file) {
+  const auto fail = [&](const std::string& message) {
+    throw InputError(fmt::format("{}: {}", file.string(), message));
+  };
+  if (c.bondline_file.empty()) {
+    if (!c.bondline_group.empty()) fail("glue.group needs glue.from_bondline, the result that has the group");
+    return;
+  }
+  if (c.bondline_group.empty()) fail("glue.from_bondline needs glue.group, the group of that result to take");
+  std::vector<double> measured;
+  try {
+    measured = {bondline::group_compliance(c.bondline_file, c.bondline_group)};
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}: {}", c.places.bondline_file, e.what()));
+  }
+  auto& given = c.test.compliance_t_mm_per_MPa;
+  if (given != measured && given != Case().test.compliance_t_mm_per_MPa)
+    fail(fmt::format(
+        "glue.compliance_t_mm_per_MPa = [{}] and glue.from_bondline ({} mm/MPa) contradict each other; give one",
+        fmt::join(given, ", "), measured.front()));
+  given = measured;
+}
+
+Case case_from_sources(Case c, const std::vector<Source>& sources) {
+  std::vector<Given> given;
+  fs::path mat_folder, bondline_folder, log_folder;
+  for (const auto& source : sources) {
+    const auto first = given.size();
+    flatten(source, source.table, {}, given);
+    for (auto i = first; i < given.size(); ++i) {
+      if (!given[i].node) continue;
+      if (given[i].path == Path{"hotpress", "log", "file"}) log_folder = source.folder;
+      const auto* key = find_key(given[i].path);
+      if (!key->names_file) continue;
+      const bool is_mat = key->path == "mat.file";
+      (is_mat ? mat_folder : bondline_folder) = source.folder;
+      (is_mat ? c.places.mat_file : c.places.bondline_file) = opening_of_file(given[i], *key);
+    }
+  }
+  for (const auto& g : given) {
+    if (!g.node) make_instance(c, g);
+  }
+  std::erase_if(given, [](const Given& g) { return !g.node; });
+  auto ordered = given;
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
+  for (const auto& g : ordered) apply(c, g);
+  make_absolute(c.mat_file, mat_folder);
+  make_absolute(c.bondline_file, bondline_folder);
+  make_absolute(c.hotpress.log_file, log_folder);
+  c.places.rows = where_of(given, sources.front().name, {"mat", "rows"}) + ": mat.rows";
+  check_case(c, given, sources.front().name);
+  return c;
+}
+
+std::vector<Source> with_overrides(Source file, const std::vector<std::string>& overrides) {
+  std::vector<Source> sources;
+  sources.push_back(std::move(file));
+  for (const auto& text : overrides) sources.push_back(parse_override(text));
+  return sources;
+}
+
+std::string read_text(const fs::path& file) {
+  if (file.empty()) throw InputError("no case file is given: its name is empty");
+  std::error_code error;
+  const auto status = fs::status(file, error);
+  if (!fs::exists(status)) {
+    const auto stem = file.stem().string();
+    const auto& ready = ready_cases();
+    const bool known = std::find(ready.begin(), ready.end(), stem) != ready.end();
+    throw InputError(fmt::format("{}: no such case file; to make one: strandlab init {} > {}", file.string(),
+                                 known ? stem : "osb", known ? stem + ".toml" : file.string()));
+  }
+  if (fs::is_directory(status)) throw InputError(fmt::format("{}: this is a folder, not a case file", file.string()));
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw InputError(fmt::format("{}: the case file cannot be read", file.string()));
+  return text.str();
+}
+
+}  // namespace
+
+Case read_case(const fs::path& file, const std::vector<std::string>& overrides) {
+  Source source{parse_toml(read_text(file), file.string()), file.string(), true, fs::absolute(file).parent_path()};
+  Case c;
+  c.name = file.stem().string();
+  c = case_from_sources(std::move(c), with_overrides(std::move(source), overrides));
+  use_bondline(c, file);
+  return c;
+}
+
+Case case_from_text(const std::string& text, const std::string& source, const std::vector<std::string>& overrides) {
+  return case_from_sources(Case(),
+                           with_overrides({parse_toml(text, source), source, true, fs::current_path()}, overrides));
+}
+
+}  // namespace strandlab::cases

@@ -1,0 +1,118 @@
+// The ready cases: what each changes in the defaults, which are those of OSB.
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "strandlab/case/case.hpp"
+#include "strandlab/core/error.hpp"
+#include "strandlab/core/nearest.hpp"
+
+namespace strandlab::cases {
+namespace {
+
+constexpr const char* kFullRows =
+    "[kinds.surface]\nlength_mm = 0\nlength_sd_mm = 0\ngap_mm = 0\ngap_sd_mm = 0\n"
+    "[kinds.core]\nlength_mm = 0\nlength_sd_mm = 0\ngap_mm = 0\ngap_sd_mm = 0\n";
+
+struct Ready {
+  std::string name;
+  std::string title;
+  std::string changes;  // as a case file
+};
+
+// VTC strands are 25 mm shorter than normal ones.
+constexpr const char* kVtcSurface = "[kinds.surface]\nmaterial = \"vtc\"\nlength_mm = 125\n";
+
+// Panels of the experiments of Rathi (2009) as Le (2010), 3.6.4.2 models them: surface rows over a core of strands at
+// any angle. Core rows keep the lengths and gaps that the core of the OSB case has in the section, whatever their
+// angle.
+Ready rathi(const std::string& name, const std::string& title, int surface, int core, const std::string& changes) {
+  return {name,
+          title +
+              "\nCore strands lie at any angle. Le (2010), section 3.6.4.2, after Rathi (2009). Core rows keep the "
+              "lengths and gaps\nof the OSB case's core in the section, whatever the angles (docs/layups.md).",
+          fmt::format("[mat]\nrows = [\"surface*{0}\", \"core*{1}\", \"surface*{0}\"]\n"
+                      "[kinds.core]\nangle_deg = 0\nangle_spread_deg = 90\n{2}",
+                      surface, core, changes)};
+}
+
+Ready chapter5(int length, int gap) {
+  return {fmt::format("osb_length{}_gap{}", length, gap),
+          fmt::format("OSB with surface strands of {} +- 20 mm and gaps of {} +- 4.95 mm between them.\n"
+                      "One of the four cases of Le (2010), chapter 5, on strand length and gaps.",
+                      length, gap),
+          fmt::format("[kinds.surface]\nlength_mm = {}\ngap_mm = {}\n", length, gap)};
+}
+
+const std::vector<Ready>& table() {
+  static const std::vector<Ready> list{
+      {"osb",
+       "Oriented strand board: 20 rows of hybrid poplar, pressed to 40 % and tested with five qualities of glue.", ""},
+      {"hot_osb",
+       "Three-layer OSB of 12 mm and 640 kg/m3 for the hot press: strands that crush, PF in the faces, pMDI in the "
+       "core.\n"
+       "`strandlab hotpress` presses it as a column (docs/hotpress.md): how long to press, at what pressure, with "
+       "what\n"
+       "density profile. `strandlab run` still presses it cold.",
+       "[mat]\nrows = [\"surface*8\", \"core*18\", \"surface*8\"]\n[kinds.surface]\nlaw = \"crushing\"\n"
+       "[kinds.core]\nlaw = \"crushing\"\n[press]\nspeed_m_s = 4\n"
+       "[hotpress]\nschedule = [\"close to 640 kg/m3 in 25 s\", \"hold until 180 s\", \"vent 15 s\", \"open 60 s\"]\n"},
+      {"osl", "Oriented strand lumber: all 20 rows along the panel.", "[mat]\nrows = [\"surface*20\"]\n"},
+      {"plywood", "Plywood: the rows of the OSB case without gaps.", kFullRows},
+      {"lvl", "Laminated veneer lumber: 20 rows along the panel without gaps.",
+       fmt::format("[mat]\nrows = [\"surface*20\"]\n{}", kFullRows)},
+      {"osb_vtc50",
+       "OSB with densified surfaces: all surface rows, half of the volume, are VTC strands as long as the normal "
+       "ones.\n"
+       "Le (2010), section 3.6.4.1.",
+       "[kinds.surface]\nmaterial = \"vtc\"\n"},
+      rathi("rathi20_control", "Control of the panel with 20 % VTC: two surface rows of normal strands on either side.",
+            2, 16, ""),
+      rathi("rathi20_vtc",
+            "Panel with about 20 % of its weight in VTC strands: one surface row of them on either side.", 1, 19,
+            kVtcSurface),
+      rathi("rathi40_control",
+            "Control of the panel with 40 % VTC: four surface rows of normal strands on either side.", 4, 12, ""),
+      rathi("rathi40_vtc",
+            "Panel with about 40 % of its weight in VTC strands: two surface rows of them on either side.", 2, 14,
+            kVtcSurface),
+      chapter5(75, 15),
+      chapter5(75, 30),
+      chapter5(150, 15),
+      chapter5(150, 30)};
+  return list;
+}
+
+const Ready& find(const std::string& name) {
+  for (const auto& ready : table()) {
+    if (ready.name == name) return ready;
+  }
+  const auto near = nearest(name, ready_cases());
+  throw InputError(fmt::format("there is no ready case \"{}\"{} Ready cases: {}", name,
+                               near.empty() ? "." : fmt::format("; did you mean \"{}\"?", near),
+                               quoted_list(ready_cases())));
+}
+
+}  // namespace
+
+const std::vector<std::string>& ready_cases() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const auto& ready : table()) list.push_back(ready.name);
+    return list;
+  }();
+  return names;
+}
+
+std::string ready_case_title(const std::string& name) {
+  return find(name).title;
+}
+
+Case ready_case(const std::string& name) {
+  auto c = case_from_text(find(name).changes, name);
+  c.name = name;
+  return c;
+}
+
+}  // namespace strandlab::cases

@@ -1,0 +1,26 @@
+// A hot press cycle through the thickness of a case's mat, in memory and into a folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "strandlab/case/case.hpp"
+#include "strandlab/hotpress/answers.hpp"
+#include "strandlab/run/journey.hpp"
+
+namespace strandlab::run {
+
+struct HotPressed {
+  hotpress::Band band;
+  std::vector<std::string> notes;  // what a user should be told, warnings of the cycle among it
+};
+
+// Throws InputError as cases::hotpress_settings().
+HotPressed hotpress(const cases::Case& c);
+
+// The same, and leaves case.toml, hotpress.csv, transfer_profiles.csv and run.json in the folder. Throws InputError,
+// with nothing written, for a folder of other results, or of these without `force`.
+HotPressed hotpress(const cases::Case& c, const Place& place);
+
+}  // namespace strandlab::run

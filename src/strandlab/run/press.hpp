@@ -1,0 +1,44 @@
+// The second step: pressing the mat through the compactions of its case.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "strandlab/press/press.hpp"
+#include "strandlab/profile/profile.hpp"
+#include "strandlab/report/findings.hpp"
+#include "strandlab/report/morphology.hpp"
+#include "strandlab/run/form.hpp"
+#include "strandlab/run/observer.hpp"
+
+namespace strandlab::run {
+
+// What is read off the panels, one of each per compaction.
+struct Shapes {
+  std::vector<report::Morphology> morphologies;
+  std::vector<profile::Profile> density_profiles;  // in bins of one cell of the press
+};
+
+struct Pressed {
+  std::vector<Panel<2>> panels;  // one per compaction of the case
+  press::Outcome<2> outcome;     // records, warnings, speed
+};
+
+// Presses in memory: nothing is written. Throws RunError for a pressing that fails, Cancelled when the observer stops
+// it.
+Pressed press(const Formed& formed, Observer& observer);
+
+// The same for who keeps panels, frames and checkpoints himself as they come, and may go on from one: `keep` is told
+// all but progress, which the observer hears.
+press::Outcome<2> press(const Formed& formed, press::Sink<2> keep, const std::optional<press::Checkpoint<2>>& resume,
+                        Observer& observer);
+
+// Of the panels of a case, one per compaction.
+Shapes shapes_of(const cases::Case& c, const std::vector<Panel<2>>& panels);
+
+// What records and shapes say, in plain words.
+std::vector<report::Finding> findings_of(const std::vector<press::Record>& records,
+                                         const std::vector<std::string>& warnings, const Shapes& shapes);
+
+}  // namespace strandlab::run

@@ -1,0 +1,115 @@
+// Virtual tests into a run folder.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+
+#include "strandlab/core/error.hpp"
+#include "strandlab/report/plots.hpp"
+#include "strandlab/report/theory_curves.hpp"
+#include "strandlab/run/record.hpp"
+#include "strandlab/run/steps.hpp"
+#include "strandlab/run/theory_rows.hpp"
+
+namespace strandlab::run {
+namespace {
+
+namespace fs = std::filesystem;
+using cases::Step;
+
+void write_moduli(const Journey& journey, const Tested& tested) {
+  report::moduli_table(moduli_of(tested)).write(journey.folder.file("moduli.csv"));
+}
+
+// Modulus against glue and against compaction for each test, with the closed-form models over them, and these models'
+// numbers.
+void write_plots(Journey& journey, const std::vector<report::PanelModulus>& moduli) {
+  const auto& c = journey.formed.c;
+  const auto plots = journey.folder.file("plots");
+  fs::create_directories(plots);
+  const auto theory = report::theory_moduli(theory_rows(c, journey.formed.mat), moduli, c.off_axis);
+  report::theory_table(theory).write(journey.folder.file("theory.csv"));
+  for (const auto kind : c.test.kinds) {
+    const std::string test = vtest::name(kind);
+    for (const auto& warning :
+         {report::plot_modulus_against_compliance(moduli, test, plots / (test + "_against_compliance.png"),
+                                                  report::theory_against_compliance(theory, test)),
+          report::plot_modulus_against_compaction(moduli, test, plots / (test + "_against_compaction.png"),
+                                                  report::theory_against_compaction(theory, test))}) {
+      if (warning) journey.log.warn(*warning);
+    }
+    stop_if_cancelled(journey.log);
+  }
+}
+
+// Tables that are missing of finished tests follow from the record.
+void restore_tables(Journey& journey, const Tested& tested) {
+  auto& folder = journey.folder;
+  const auto missing = folder.missing(Step::kTest, journey.formed.c);
+  if (missing.empty()) return;
+  journey.log.say(fmt::format("test: made again, as missing: {}", fmt::join(missing, ", ")));
+  folder.forget(Step::kPage);
+  write_moduli(journey, tested);
+  write_plots(journey, moduli_of(tested));
+}
+
+// The state's files and its place in the record: tests that are stopped go on behind it.
+void keep(Journey& journey, const Tested& tested) {
+  auto& folder = journey.folder;
+  const auto& last = tested.back();
+  if (!last.result.slips.empty()) {
+    const auto file = folder.slip_file(last.compaction);
+    fs::create_directories(file.parent_path());
+    report::slip_table(last.result).write(file);
+  }
+  folder.record(Step::kTest)["states"] = to_json(tested);
+  write_moduli(journey, tested);
+  folder.save();
+}
+
+}  // namespace
+
+Tested tested_in(Journey& journey) {
+  auto& states = journey.folder.record(Step::kTest)["states"];
+  if (states.is_null()) states = nlohmann::json::array();
+  try {
+    return tested_from_json(states);
+  } catch (const nlohmann::json::exception& e) {
+    throw InputError(
+        fmt::format("{}: not the record of a strandlab run's tests ({}); test again with strandlab test "
+                    "--force",
+                    journey.folder.file("run.json").string(), e.what()));
+  }
+}
+
+Tested test_into(Journey& journey) {
+  auto& folder = journey.folder;
+  const auto& c = journey.formed.c;
+  if (folder.finished(Step::kTest)) {
+    auto tested = tested_in(journey);
+    restore_tables(journey, tested);
+    journey.log.say(fmt::format("test: already done, {}", folder.file("moduli.csv").string()));
+    return tested;
+  }
+  const auto panels = read_panels(journey);
+  journey.log.open(folder.file("log.txt"));
+  folder.forget(Step::kPage);
+  auto tested = tested_in(journey);
+  for (auto i = tested.size(); i < panels.size(); ++i) {
+    tell_progress(c, i, journey.log);
+    tested.push_back(test(c, panels[i], c.schedule.compactions[i], journey.log));
+    keep(journey, tested);
+  }
+  double wall_s = 0;
+  for (const auto& state : tested) wall_s += state.wall_s;
+  folder.record(Step::kTest)["wall_s"] = wall_s;
+  refuse_if_none_is_testable(tested);
+  const auto moduli = moduli_of(tested);
+  write_plots(journey, moduli);
+  folder.record(Step::kTest)["findings"] = report::to_json(findings_of(tested));
+  folder.set_finished(Step::kTest);
+  journey.log.say(fmt::format("test: {} moduli -> {}", moduli.size(), folder.file("moduli.csv").string()));
+  return tested;
+}
+
+}  // namespace strandlab::run

@@ -1,0 +1,68 @@
+#include "strandlab/run/theory_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "strandlab/core/error.hpp"
+
+namespace strandlab::run {
+namespace {
+
+theory::Row row_of_kind(const std::vector<StrandKind>& kinds, const std::string& name) {
+  const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const StrandKind& k) { return k.name == name; });
+  if (kind == kinds.end()) throw InputError(fmt::format("the case has no strand kind \"{}\"", name));
+  return {kind->material, kind->angle_deg, {}, 0, 0};
+}
+
+mat::StrandStatistics statistics_of(const mat::Layer& layer, double length_mm) {
+  double wood = 0;
+  for (const auto& strand : layer.strands) wood += strand.x1_mm - strand.x0_mm;
+  if (wood >= length_mm) return {0, 0, 0, 0};
+  if (layer.strands.empty()) return {0, 0, length_mm, 0};
+  const double mean = wood / static_cast<double>(layer.strands.size());
+  return {mean, 0, mean * (length_mm / wood - 1), 0};
+}
+
+std::vector<theory::Piece> pieces_of(const mat::Mat& mat, std::size_t layer, const std::vector<StrandKind>& kinds) {
+  const auto& kind = find_kind(kinds, mat.layers[layer].role, layer);
+  std::vector<theory::Piece> pieces;
+  for (const auto& strand : mat.layers[layer].strands) {
+    pieces.push_back({find_material(kind, strand, kinds, layer), strand.angle_deg.value_or(kind.angle_deg),
+                      strand.x1_mm - strand.x0_mm});
+  }
+  return pieces;
+}
+
+double spread_of(const cases::Case& c, const std::string& name) {
+  const auto kind = std::find_if(c.kinds.begin(), c.kinds.end(), [&](const auto& k) { return k.name == name; });
+  return kind == c.kinds.end() ? 0 : kind->angle_spread_deg;
+}
+
+}  // namespace
+
+std::vector<theory::Row> theory_rows(const cases::Case& c, const mat::Mat& mat) {
+  const auto kinds = cases::strand_kinds(c);
+  std::vector<theory::Row> rows;
+  if (c.mat_file.empty()) {
+    const auto layup = cases::layup(c);
+    for (const auto& given : layup.rows) {
+      rows.push_back(row_of_kind(kinds, given.kind));
+      rows.back().statistics = given.statistics;
+      rows.back().thickness_mm = given.thickness_mm.value_or(layup.layer_thickness_mm);
+      rows.back().angle_spread_deg = spread_of(c, given.kind);
+    }
+    return rows;
+  }
+  const auto woods = cases::kinds_and_materials(c);
+  for (std::size_t i = 0; i < mat.layers.size(); ++i) {
+    rows.push_back(row_of_kind(kinds, mat.layers[i].role));
+    rows.back().statistics = statistics_of(mat.layers[i], mat.length_mm);
+    rows.back().thickness_mm = mat.thickness_of(i);
+    rows.back().pieces = pieces_of(mat, i, woods);
+  }
+  return rows;
+}
+
+}  // namespace strandlab::run

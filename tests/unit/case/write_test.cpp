@@ -1,0 +1,127 @@
+// Cases as text: round trips, the ready cases of the tree, the reference page, and what identifies a run.
+#include "strandlab/case/write.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "samples.hpp"
+#include "strandlab/core/error.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace strandlab::cases {
+namespace {
+
+TEST(CaseWrite, ResolvedTextReadsBackToTheSameCase) {
+  for (const auto& sample : samples()) {
+    const Case c = case_from_text("", "panel.toml", {sample.dotted + "=" + sample.value});
+    const Case again = case_from_text(resolved_text(c), "resolved.toml");
+    EXPECT_EQ(resolved_text(again), resolved_text(c)) << sample.dotted;
+    EXPECT_EQ(to_toml(sample.entry->get(again, sample.name)), sample.value);
+  }
+}
+
+TEST(CaseWrite, TextsWithQuotesAndControlCharactersReadBack) {
+  Case c;
+  c.mat_file = "/data/a \"b\\c\"\t\x01.json";
+  EXPECT_EQ(case_from_text(resolved_text(c), "resolved.toml").mat_file, c.mat_file);
+}
+
+TEST(CaseWrite, CommentedCasesReadBackToTheReadyCases) {
+  for (const auto& name : ready_cases()) {
+    const auto c = ready_case(name);
+    EXPECT_EQ(resolved_text(case_from_text(commented_text(c, ready_case_title(name)), name)), resolved_text(c)) << name;
+  }
+}
+
+TEST(CaseWrite, CasesOfTheTreeAreTheReadyCases) {
+  for (const auto& name : ready_cases()) {
+    const auto text = test::contents(std::filesystem::path(STRANDLAB_CASES) / (name + ".toml"));
+    EXPECT_TRUE(text == commented_text(ready_case(name), ready_case_title(name)))
+        << "to update: strandlab init " << name << " > cases/" << name << ".toml";
+  }
+}
+
+TEST(CaseWrite, ReferencePageIsUpToDate) {
+  const auto text = test::contents(std::filesystem::path(STRANDLAB_CASES) / "../docs/cases.md");
+  EXPECT_TRUE(text == reference_text()) << "to update: strandlab init --reference > docs/cases.md";
+}
+
+TEST(CaseWrite, ReadyCasesHaveTheirRows) {
+  // OSB has 10 core rows across; OSL and LVL none; plywood and LVL have no gaps: one strand per row.
+  EXPECT_EQ(layup(ready_case("osl")).rows[10].kind, "surface");
+  EXPECT_EQ(make_mat(ready_case("osb")).layers[10].role, "core");
+  for (const auto* name : {"plywood", "lvl"}) {
+    for (const auto& layer : make_mat(ready_case(name)).layers) EXPECT_EQ(layer.strands.size(), 1U) << name;
+  }
+  EXPECT_THROW(ready_case("osbb"), InputError);
+}
+
+// Rows of Le (2010), 3.6.4: VTC on the surfaces, a core at any angle in Rathi's panels.
+TEST(CaseWrite, PanelsWithDensifiedStrandsHaveTheirRows) {
+  struct Layers {
+    const char* name;
+    std::size_t surface, core;
+    const char* material;
+    double length_mm, spread_deg;
+  };
+  for (const auto& expected :
+       {Layers{"osb_vtc50", 5, 10, "vtc", 150, 0}, Layers{"rathi20_control", 2, 16, "poplar", 150, 90},
+        Layers{"rathi20_vtc", 1, 19, "vtc", 125, 90}, Layers{"rathi40_control", 4, 12, "poplar", 150, 90},
+        Layers{"rathi40_vtc", 2, 14, "vtc", 125, 90}}) {
+    const auto c = ready_case(expected.name);
+    const auto rows = layup(c).rows;
+    ASSERT_EQ(rows.size(), 2 * expected.surface + expected.core) << expected.name;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const bool surface = i < expected.surface || i >= expected.surface + expected.core;
+      EXPECT_EQ(rows[i].kind, surface ? "surface" : "core") << expected.name;
+      const double spread_deg = rows[i].angles_deg.value_or(mat::AngleRange{}).spread_deg;
+      EXPECT_EQ(spread_deg, surface ? 0 : expected.spread_deg) << expected.name;
+    }
+    EXPECT_EQ(rows.front().statistics.length_mm, expected.length_mm) << expected.name;
+    EXPECT_EQ(strand_kinds(c)[0].material.name, expected.material) << expected.name;
+    EXPECT_EQ(strand_kinds(c)[1].material.name, "poplar") << expected.name;
+  }
+}
+
+TEST(CaseWrite, Chapter5CasesVaryLengthAndGap) {
+  for (const int length : {75, 150}) {
+    for (const int gap : {15, 30}) {
+      const auto c = ready_case("osb_length" + std::to_string(length) + "_gap" + std::to_string(gap));
+      const auto& s = c.kinds[0].statistics;
+      EXPECT_EQ(s.length_mm, length);
+      EXPECT_EQ(s.length_sd_mm, 20);
+      EXPECT_EQ(s.gap_mm, gap);
+      EXPECT_EQ(s.gap_sd_mm, 4.95);
+      EXPECT_EQ(c.kinds[1].statistics.length_mm, 25);
+      EXPECT_EQ(c.rows, Case().rows);
+    }
+  }
+}
+
+// Two runs give the same bits exactly when no key that changes results differs.
+TEST(CaseWrite, HashChangesWithEveryKeyThatChangesResults) {
+  std::set<std::string> seen;
+  const auto plain = case_hash(Case(), Step::kTest);
+  for (const auto& sample : samples()) {
+    const auto hash = case_hash(case_from_text("", "panel.toml", {sample.dotted + "=" + sample.value}), Step::kTest);
+    if (sample.entry->changes_results) {
+      EXPECT_TRUE(seen.insert(hash).second && hash != plain) << sample.dotted;
+    } else {
+      EXPECT_EQ(hash, plain) << sample.dotted;
+    }
+  }
+}
+
+TEST(CaseWrite, HashOfAStepIgnoresLaterSteps) {
+  const Case test = case_from_text("", "panel.toml", {"glue.max_gap_mm=0.2"});
+  EXPECT_EQ(case_hash(test, Step::kPress), case_hash(Case(), Step::kPress));
+  const Case press = case_from_text("", "panel.toml", {"press.speed_m_s=2"});
+  EXPECT_EQ(case_hash(press, Step::kMat), case_hash(Case(), Step::kMat));
+  EXPECT_NE(case_hash(press, Step::kPress), case_hash(Case(), Step::kPress));
+}
+
+}  // namespace
+}  // namespace strandlab::cases
