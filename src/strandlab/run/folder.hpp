@@ -12,6 +12,12 @@
 
 namespace strandlab::run {
 
+// Where results go.
+struct Place {
+  std::filesystem::path folder;
+  bool force = false;  // results of the steps taken that are there already are replaced
+};
+
 class RunFolder {
  public:
   // Opens the folder of a case, made where it is missing; with `force` the steps from `first` on, or from the first

@@ -1,13 +1,12 @@
 // A hot press cycle through the thickness of a case's mat, in memory and into a folder.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "strandlab/case/case.hpp"
 #include "strandlab/hotpress/answers.hpp"
-#include "strandlab/run/journey.hpp"
+#include "strandlab/run/folder.hpp"
 
 namespace strandlab::run {
 

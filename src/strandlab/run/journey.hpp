@@ -2,18 +2,12 @@
 // holds, says what it does, and leaves its files and its part of run.json.
 #pragma once
 
-#include <filesystem>
-
+#include "strandlab/run/folder.hpp"
 #include "strandlab/run/form.hpp"
 #include "strandlab/run/observer.hpp"
 #include "strandlab/run/test.hpp"
 
 namespace strandlab::run {
-
-struct Place {
-  std::filesystem::path folder;
-  bool force = false;  // results of the steps taken that are there already are replaced
-};
 
 // A step is not repeated where the folder has its results; what is missing of them is made again where that needs no
 // simulation. All throw InputError, with nothing written, for a case that cannot be run and a folder that cannot be

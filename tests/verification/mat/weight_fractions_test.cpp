@@ -8,7 +8,7 @@
 #include "strandlab/case/case.hpp"
 #include "support/report.hpp"
 
-namespace strandlab::io {
+namespace strandlab::cases {
 namespace {
 
 struct PanelCase {
@@ -66,4 +66,4 @@ INSTANTIATE_TEST_SUITE_P(Panels, WeightFraction,
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace
-}  // namespace strandlab::io
+}  // namespace strandlab::cases
