@@ -40,6 +40,16 @@ nlohmann::json machine() {
           {"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)}};
 }
 
+// The states at which the panel is kept, as they were solved for this mat.
+nlohmann::json states(const io::Case& c, const mat::Mat& mat) {
+  auto list = nlohmann::json::array();
+  for (const double compaction : c.schedule.compactions)
+    list.push_back({{"compaction", compaction},
+                    {"thickness_mm", mat.thickness_mm() * (1 - compaction)},
+                    {"density_kg_m3", io::density_kg_m3(c, mat, compaction)}});
+  return list;
+}
+
 std::string read_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
@@ -50,6 +60,7 @@ std::string read_text(const std::filesystem::path& file) {
 Journey start(const CaseArguments& arguments, io::Step first, io::Step last) {
   auto c = arguments.read();
   auto mat = io::make_mat(c);
+  io::settle_states(c, mat);
   auto panel = io::make_panel(c, mat);
   vtest::check(panel, c.test);
   if (last >= io::Step::kTest && c.sides == mpm::Side::kRoller) vtest::check_ends(panel, c.schedule.compactions.back());
@@ -62,6 +73,7 @@ Journey start(const CaseArguments& arguments, io::Step first, io::Step last) {
   folder.record()["seed"] = c.seed;
   folder.record()["machine"] = machine();
   folder.record()["mat"] = to_json(io::weigh(c, mat));
+  folder.record()["states"] = states(c, mat);
   folder.record()["derived_constants"] = io::derived_constants(c);
   return {std::move(c), std::move(mat), std::move(panel), std::move(folder)};
 }

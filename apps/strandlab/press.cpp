@@ -160,9 +160,9 @@ void write_report(Journey& journey, const std::vector<press::Record>& records, c
   write_profiles(journey, panels, console);
   draw_pictures(journey, panels);
   if (!records.empty()) {
-    auto findings = report::pressing_findings(records, warnings);
-    const auto shape = report::shape_findings(shapes);
-    findings.insert(findings.end(), shape.begin(), shape.end());
+    auto findings = report::pressing_findings(records, press::judged_from(journey.c.schedule), warnings);
+    for (const auto& more : {report::softening_findings(io::strand_kinds(journey.c)), report::shape_findings(shapes)})
+      findings.insert(findings.end(), more.begin(), more.end());
     journey.folder.record(io::Step::kPress)["findings"] = report::to_json(findings);
     warn_if(console, report::plot_stress(records, folder.file("pictures") / "stress.png"));
   }

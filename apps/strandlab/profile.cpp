@@ -23,6 +23,7 @@
 #include "strandlab/core/text.hpp"
 #include "strandlab/io/case_write.hpp"
 #include "strandlab/io/checkpoint.hpp"
+#include "strandlab/io/run_folder.hpp"
 #include "strandlab/report/density_profiles.hpp"
 
 namespace strandlab::app {
@@ -57,7 +58,7 @@ Run open_run(const fs::path& folder) {
                     "`strandlab press` has filled",
                     folder.string()));
   }
-  return {folder, io::read_case(folder / "case.toml")};
+  return {folder, io::read_run_case(folder)};
 }
 
 // Replicates are runs of one case with other random mats: everything else that the pressing depends on is the same.

@@ -54,12 +54,14 @@ Json to_json(double compaction, const vtest::Result& result, double wall_s) {
           {"warnings", result.warnings}};
 }
 
-std::vector<report::PanelModulus> moduli_of(const Json& states) {
+std::vector<report::PanelModulus> moduli_of(const Journey& journey, const Json& states) {
   std::vector<report::PanelModulus> moduli;
   for (const auto& state : states) {
+    const double density = io::density_kg_m3(journey.c, journey.mat, state.at("compaction"));
     for (const auto& m : state.at("moduli")) {
       moduli.push_back({state.at("compaction"), m.at("test"), m.at("compliance_t_mm_per_MPa"), m.at("modulus_MPa"),
                         m.at("reaction_modulus_MPa")});
+      moduli.back().density_kg_m3 = density;
       if (m.contains("shear_free_modulus_MPa")) moduli.back().shear_free_modulus_MPa = m["shear_free_modulus_MPa"];
     }
   }
@@ -175,7 +177,7 @@ void test_state(Journey& journey, const Panel<2>& panel, double compaction, Cons
   const auto state = measure_state(journey, panel, compaction, console);
   auto& states = folder.record(io::Step::kTest)["states"];
   states.push_back(state);
-  report::moduli_table(moduli_of(states)).write(folder.file("moduli.csv"));
+  report::moduli_table(moduli_of(journey, states)).write(folder.file("moduli.csv"));
   folder.save();
 }
 
@@ -186,7 +188,7 @@ void restore_tables(Journey& journey, Console& console) {
   if (missing.empty()) return;
   console.say(fmt::format("test: made again, as missing: {}", fmt::join(missing, ", ")));
   folder.forget(io::Step::kPage);
-  const auto moduli = moduli_of(folder.record(io::Step::kTest)["states"]);
+  const auto moduli = moduli_of(journey, folder.record(io::Step::kTest)["states"]);
   report::moduli_table(moduli).write(folder.file("moduli.csv"));
   write_plots(journey, moduli, console);
 }
@@ -224,10 +226,11 @@ void do_test(Journey& journey, Console& console) {
   for (const auto& state : states) wall_s += state.at("wall_s").get<double>();
   folder.record(io::Step::kTest)["wall_s"] = wall_s;
   refuse_if_none_is_testable(states);
-  write_plots(journey, moduli_of(states), console);
+  const auto moduli = moduli_of(journey, states);
+  write_plots(journey, moduli, console);
   folder.record(io::Step::kTest)["findings"] = report::to_json(findings_of(states));
   folder.set_finished(io::Step::kTest);
-  console.say(fmt::format("test: {} moduli -> {}", moduli_of(states).size(), folder.file("moduli.csv").string()));
+  console.say(fmt::format("test: {} moduli -> {}", moduli.size(), folder.file("moduli.csv").string()));
 }
 
 void add_test(CLI::App& app) {
