@@ -8,6 +8,7 @@
 #include "strandlab/case/case.hpp"
 #include "strandlab/report/findings.hpp"
 #include "strandlab/report/result_tables.hpp"
+#include "strandlab/run/form.hpp"
 #include "strandlab/run/observer.hpp"
 #include "strandlab/vtest/vtest.hpp"
 
@@ -49,7 +50,8 @@ void tell_progress(const cases::Case& c, std::size_t index, Observer& observer);
 // One panel without moduli is a result; that none has any is an error: InputError, or RunError where the last failed.
 void refuse_if_none_is_testable(const Tested& tested);
 
-std::vector<report::PanelModulus> moduli_of(const Tested& tested);
+// With the density of the mat that was formed at each state.
+std::vector<report::PanelModulus> moduli_of(const Formed& formed, const Tested& tested);
 std::vector<report::Finding> findings_of(const Tested& tested);
 
 }  // namespace strandlab::run

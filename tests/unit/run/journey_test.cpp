@@ -61,9 +61,9 @@ std::map<std::string, std::string> results(const fs::path& folder) {
   return files;
 }
 
-std::vector<double> moduli(const Tested& tested) {
+std::vector<double> moduli(const cases::Case& c, const Tested& tested) {
   std::vector<double> values;
-  for (const auto& m : moduli_of(tested)) values.push_back(m.modulus_MPa);
+  for (const auto& m : moduli_of(form(c), tested)) values.push_back(m.modulus_MPa);
   return values;
 }
 
@@ -94,7 +94,7 @@ TEST(CancelledRun, GoesOnToTheSameBytes) {
   Stopper to_the_end;
   const auto tested = all(c, place, to_the_end);
   EXPECT_LT(to_the_end.asked(), undisturbed.asked());
-  EXPECT_EQ(moduli(tested), moduli(expected));
+  EXPECT_EQ(moduli(c, tested), moduli(c, expected));
   const auto there = results(place.folder), wanted = results(folder / "undisturbed");
   for (const auto& [name, bytes] : wanted) {
     ASSERT_TRUE(there.contains(name)) << name;
@@ -117,7 +117,7 @@ TEST(StepsInMemory, GiveTheSameAndWriteNothing) {
   EXPECT_TRUE(fs::is_empty(folder / "empty"));
   ASSERT_EQ(pressed.panels.size(), 2);
   EXPECT_FALSE(pressed.outcome.records.empty());
-  EXPECT_EQ(moduli(tested), moduli(all(c, {folder / "run"}, nobody)));
+  EXPECT_EQ(moduli(c, tested), moduli(c, all(c, {folder / "run"}, nobody)));
 }
 
 // A finished journey gives its tests again from the folder.
