@@ -109,7 +109,7 @@ TEST(CrushingLimit, IsHillsFunction) {
 
 // Woods that crush, at angles with all couplings, free to shear or held; some whose yield knows no bound along the
 // grain.
-std::vector<StrandMaterial> all_kinds() {
+std::vector<StrandMaterial> crushing_kinds() {
   std::vector<StrandMaterial> out;
   for (const auto& wood : library()) {
     Material m = crushing(wood);
@@ -163,7 +163,7 @@ Point<6> dense_state(const StrandMaterial& material, RandomStream& random) {
 TEST(CrushingReturn, AnyStrainIncrementUpToFivePerCent) {
   RandomStream random(3, 0);
   int yielded = 0, dense = 0;
-  for (const auto& material : all_kinds()) {
+  for (const auto& material : crushing_kinds()) {
     for (int trial = 0; trial < 2000; ++trial) {
       Point<6> point = trial % 4 ? random_state(material, random) : dense_state(material, random);
       const Point<6> before = point;
@@ -189,7 +189,7 @@ TEST(CrushingReturn, SmallStepsEndOnTheSurface) {
   RandomStream random(4, 0);
   int crushed = 0;
   double worst = 0;
-  for (const auto& material : all_kinds()) {
+  for (const auto& material : crushing_kinds()) {
     for (int trial = 0; trial < 1000; ++trial) {
       Point<6> point(material);
       const auto& law = material.crushing;
@@ -226,7 +226,7 @@ TEST(CrushingReturn, OneStepOfFivePerCentEqualsAThousand) {
     EXPECT_GE(sum, 0);
     crushed += often.history > often.modes.crushing.start;
   };
-  for (const auto& material : all_kinds()) {
+  for (const auto& material : crushing_kinds()) {
     const Point<6> start(material);
     for (int mode = 0; mode < 6; ++mode) {
       for (const double sign : {-1.0, 1.0}) {

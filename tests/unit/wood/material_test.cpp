@@ -13,7 +13,7 @@
 namespace strandlab::wood {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 Material poplar() {
   return library()[0];
@@ -274,7 +274,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadMaterial{"ZeroModulus", [](Material& m) { m.E_R = 0; }, {"E_R = 0", "positive"}},
         BadMaterial{"NegativeModulus", [](Material& m) { m.G_RT = -109; }, {"G_RT = -109", "positive"}},
-        BadMaterial{"InfiniteModulus", [](Material& m) { m.E_L = kInfinity; }, {"E_L = inf", "finite"}},
+        BadMaterial{"InfiniteModulus", [](Material& m) { m.E_L = kUnbounded; }, {"E_L = inf", "finite"}},
         BadMaterial{"NanModulus", [](Material& m) { m.E_T = std::nan(""); }, {"E_T = nan"}},
         BadMaterial{"NoDensity", [](Material& m) { m.density_kg_m3 = 0; }, {"density_kg_m3 = 0"}},
         BadMaterial{
@@ -293,7 +293,7 @@ INSTANTIATE_TEST_SUITE_P(
                     {"not positive definite", "other Poisson ratios as given", "nu_TR = 0.649"}},
         BadMaterial{"ZeroYield", [](Material& m) { m.S_RT = 0; }, {"S_RT = 0", "positive"}},
         BadMaterial{"NegativeYield", [](Material& m) { m.Y_L = -8; }, {"Y_L = -8", "positive"}},
-        BadMaterial{"InfiniteRadialYield", [](Material& m) { m.Y_R = m.Y_T = kInfinity; }, {"Y_R must be finite"}},
+        BadMaterial{"InfiniteRadialYield", [](Material& m) { m.Y_R = m.Y_T = kUnbounded; }, {"Y_R must be finite"}},
         BadMaterial{"HillWithInfiniteL",
                     [](Material& m) { m.Y_T = 5.1; },
                     {"not positive semi-definite", "Y_R = 5", "Y_T = 5.1", "|1/Y_R - 1/Y_T| <= 1/Y_L"}},

@@ -11,7 +11,7 @@
 namespace strandlab::wood {
 namespace {
 
-StrandMaterial poplar(double angle_deg = 0) {
+StrandMaterial poplar_at(double angle_deg) {
   return in_strand_axes(library()[0], angle_deg);
 }
 
@@ -24,20 +24,20 @@ void expect_stress(const std::vector<double>& given, const std::vector<double>& 
 // Unmodified poplar, Y_R = 5, K = 120, n = 4. The tables were integrated independently from the same law.
 TEST(HillPath, FreeUniaxialRadialCompression) {
   const auto free = std::array<int, 2>{kAlong, kAcross};
-  expect_stress(compress(Point<4>(poplar()), {.1, .2, .3, .4, .5}, 1e-4,
+  expect_stress(compress(Point<4>(poplar_at(0)), {.1, .2, .3, .4, .5}, 1e-4,
                          [&](auto& point, const auto& e) { advance_free(point, e, free); }),
                 {5.012, 5.268, 6.786, 12.343, 28.133});
 }
 
 TEST(HillPath, ConfinedRadialCompression) {
-  expect_stress(compress(Point<4>(poplar()), {.01, .05, .1, .2, .3, .4}, 1e-4,
+  expect_stress(compress(Point<4>(poplar_at(0)), {.01, .05, .1, .2, .3, .4}, 1e-4,
                          [](auto& point, const auto& e) { point.advance(e); }),
                 {9.700, 33.513, 67.778, 155.804, 281.705, 469.821});
 }
 
 TEST(HillPath, ConfinedAcrossFreeAlong) {
   const auto free = std::array<int, 1>{kAlong};
-  expect_stress(compress(Point<4>(poplar()), {.01, .05, .1, .2, .3, .4}, 1e-4,
+  expect_stress(compress(Point<4>(poplar_at(0)), {.01, .05, .1, .2, .3, .4}, 1e-4,
                          [&](auto& point, const auto& e) { advance_free(point, e, free); }),
                 {9.518, 32.656, 65.836, 150.579, 270.838, 449.050});
 }
@@ -68,14 +68,14 @@ void expect_pure_shear(const StrandMaterial& material, int component) {
 }
 
 TEST(HillPath, PureShearInTheSection) {
-  expect_pure_shear<4>(poplar(90), kThroughShear);
+  expect_pure_shear<4>(poplar_at(90), kThroughShear);
 }
 TEST(HillPath, PureShearAcross) {
-  expect_pure_shear<6>(poplar(0), 4);
+  expect_pure_shear<6>(poplar_at(0), 4);
 }
 
 // Materials whose every stress yields, at angles with all couplings.
-std::vector<StrandMaterial> all_kinds() {
+std::vector<StrandMaterial> hill_kinds() {
   std::vector<StrandMaterial> out;
   for (Material m : library()) {
     for (const double angle : {0.0, 30.0, 90.0}) out.push_back(in_strand_axes(m, angle));
@@ -104,7 +104,7 @@ Components<6> components(const Tensor<3>& m, double shear) {
 }
 
 // A point with a history: random strains of up to 2 %, compressed or stretched, and some hardening to begin with.
-Point<6> random_state(const StrandMaterial& material, RandomStream& random) {
+Point<6> hill_state(const StrandMaterial& material, RandomStream& random) {
   Point<6> point(material);
   point.ln_J = -1.2 + 1.3 * random.uniform();
   point.history = random.uniform() < 0.3 ? 0 : 0.8 * random.uniform();
@@ -118,9 +118,9 @@ Point<6> random_state(const StrandMaterial& material, RandomStream& random) {
 TEST(ReturnMap, AnyStrainIncrementUpToFivePerCent) {
   RandomStream random(1, 0);
   int yielded = 0;
-  for (const auto& material : all_kinds()) {
+  for (const auto& material : hill_kinds()) {
     for (int trial = 0; trial < 2000; ++trial) {
-      Point<6> point = random_state(material, random);
+      Point<6> point = hill_state(material, random);
       const Point<6> before = point;
       const Components<6> increment = random_strain(random, 0.05 * random.uniform());
       const double work = point.advance(increment);
@@ -169,10 +169,10 @@ TEST(ReturnMap, IsInvariantUnderTheStrandAngle) {
 TEST(ReturnMap, FourComponentsAgreeWithSix) {
   RandomStream random(2, 0);
   for (const double angle : {0.0, 90.0}) {
-    EXPECT_FALSE(needs_six(poplar(angle)));
+    EXPECT_FALSE(needs_six(poplar_at(angle)));
     for (int trial = 0; trial < 500; ++trial) {
-      Point<4> four(poplar(angle));
-      Point<6> six(poplar(angle));
+      Point<4> four(poplar_at(angle));
+      Point<6> six(poplar_at(angle));
       for (int step = 0; step < 3; ++step) {
         Components<6> e = random_strain(random, 0.03);
         e[4] = e[5] = 0;
@@ -184,14 +184,14 @@ TEST(ReturnMap, FourComponentsAgreeWithSix) {
       ASSERT_NEAR(four.history, six.history, 1e-11);
     }
   }
-  EXPECT_TRUE(needs_six(poplar(45)));
+  EXPECT_TRUE(needs_six(poplar_at(45)));
 }
 
 // Paths on which the stress keeps its direction: strain along one mode of the simultaneous diagonalisation. One
 // backward Euler step of 5 % is then as good as 1000 substeps.
 TEST(ReturnMap, OneStepOfFivePerCentEqualsAThousandAlongTheModes) {
   int yielded = 0;
-  for (const auto& material : all_kinds()) {
+  for (const auto& material : hill_kinds()) {
     for (int mode = 0; mode < 6; ++mode) {
       for (const double sign : {-1.0, 1.0}) {
         Point<6> once(material), often(material);
@@ -216,7 +216,7 @@ TEST(ReturnMap, OneStepOfFivePerCentEqualsAThousandAlongTheModes) {
 // yields; one step of 5 % against 1000.
 TEST(ReturnMap, OneStepOfFivePerCentEqualsAThousandUnderCompression) {
   const auto both = [](const Components<4>& strain, auto advance) {
-    Point<4> once(poplar()), often(poplar());
+    Point<4> once(poplar_at(0)), often(poplar_at(0));
     advance(once, strain);
     for (int i = 0; i < 1000; ++i) advance(often, Components<4>(strain / 1000));
     EXPECT_GT(often.history, 0);
