@@ -16,8 +16,8 @@ endif()
 if(STRANDLAB_WERROR)
   target_compile_options(strandlab_flags INTERFACE -Werror)
 endif()
-if(STRANDLAB_TIDY)  # of what is compiled below; tests are compiled but not analysed (see the root CMakeLists.txt)
-  set(CMAKE_CXX_CLANG_TIDY clang-tidy --quiet)
+if(STRANDLAB_FUZZ)  # every room counts its branches, for the fuzzers to find new ones
+  target_compile_options(strandlab_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 # strandlab_room(name LINKS public... PRIVATE_LINKS private...): one library from src/strandlab/<name>/*.cpp, installed as
@@ -65,8 +65,5 @@ function(strandlab_kernel_builds)
     # -Wno-psabi: packs are never passed between builds, so their calling convention does not matter.
     target_compile_options(strandlab_kernels_${build} PRIVATE -O3 -Wno-psabi ${flags_${build}})
     target_sources(strandlab_mpm PRIVATE $<TARGET_OBJECTS:strandlab_kernels_${build}>)
-    if(NOT build STREQUAL generic)
-      set_target_properties(strandlab_kernels_${build} PROPERTIES CXX_CLANG_TIDY "")  # one source: once is enough
-    endif()
   endforeach()
 endfunction()

@@ -13,13 +13,13 @@
 
 namespace strandlab::app {
 void add_bench(CLI::App& app) {
-  struct Arguments {
+  struct BenchArguments {
     bool json = false;
     int repeats = 5;
     int threads = 0;
   };
   auto* command = app.add_subcommand("bench", "Measure how fast this machine presses and tests the main job's mat");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<BenchArguments>();
   command->add_flag("--json", arguments->json, "print a list of objects, one per thread count");
   command->add_option("--repeats", arguments->repeats, "measurements per figure; the median is printed")
       ->check(CLI::Range(1, 100));

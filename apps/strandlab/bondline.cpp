@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct BondlineArguments {
   std::string file, folder, records;
   std::string formula = "coth";
   std::vector<std::string> group_by{"group"}, within;
@@ -37,7 +37,7 @@ struct Arguments {
   std::vector<double> overlaps{overlap.shortest_mm, overlap.longest_mm};
 };
 
-bondline::SpecimenTable read(const Arguments& a) {
+bondline::SpecimenTable read(const BondlineArguments& a) {
   if (a.records.empty()) return bondline::read_specimens(a.file);
   const bool newtons = !a.window_N.empty();
   const bondline::LoadWindow window =
@@ -59,7 +59,7 @@ int draw(const std::vector<bondline::Picture>& pictures, const fs::path& folder)
   return drawn;
 }
 
-void write_results(const Arguments& a, const bondline::Analysis& analysis, const fs::path& folder) {
+void write_results(const BondlineArguments& a, const bondline::Analysis& analysis, const fs::path& folder) {
   files::make_folder(folder);
   report::specimen_table(analysis).write(folder / "specimens.csv");
   report::group_table(analysis).write(folder / "groups.csv");
@@ -72,7 +72,7 @@ void write_results(const Arguments& a, const bondline::Analysis& analysis, const
         printable(json.filename().string()), plots);
 }
 
-void analyse(const Arguments& a) {
+void analyse(const BondlineArguments& a) {
   const fs::path input = a.file;
   const fs::path folder =
       a.folder.empty() ? fs::path("runs") / (input.stem().string() + "-bondline") : fs::path(a.folder);
@@ -90,7 +90,7 @@ void analyse(const Arguments& a) {
   write_results(a, analysis, folder);
 }
 
-void design(const Arguments& a) {
+void design(const BondlineArguments& a) {
   auto overlap = a.overlap;
   overlap.formula = bondline::formula_from_name(a.formula);
   overlap.uncertainty = a.uncertainty;
@@ -99,7 +99,7 @@ void design(const Arguments& a) {
   print("{}", report::text_of(overlap));
 }
 
-void bond_lines(const Arguments& a) {
+void bond_lines(const BondlineArguments& a) {
   if (a.example) {
     print("{}", bondline::example_table(a.seed));
   } else if (a.design) {
@@ -111,7 +111,7 @@ void bond_lines(const Arguments& a) {
   }
 }
 
-void add_analysis_options(CLI::App& command, Arguments& a) {
+void add_analysis_options(CLI::App& command, BondlineArguments& a) {
   command.add_option(
       "TABLE", a.file,
       "specimens: id, group, E1_MPa, E2_MPa, t1_mm, t2_mm, W_mm, l_mm, L1_mm, L2_mm, k_N_per_mm [G1_MPa, "
@@ -129,7 +129,7 @@ void add_analysis_options(CLI::App& command, Arguments& a) {
   command.add_option("--window-N", a.window_N, "load window of the slope, N")->delimiter(',')->expected(2);
 }
 
-void add_uncertainty_options(CLI::App& command, Arguments& a) {
+void add_uncertainty_options(CLI::App& command, BondlineArguments& a) {
   const auto not_negative = CLI::Range(0.0, 1e3);
   auto& u = a.uncertainty;
   command.add_option("--u-k", u.k_relative, "relative standard uncertainty of k, where the table gives none")
@@ -142,7 +142,7 @@ void add_uncertainty_options(CLI::App& command, Arguments& a) {
       ->capture_default_str();
 }
 
-void add_design_options(CLI::App& command, Arguments& a) {
+void add_design_options(CLI::App& command, BondlineArguments& a) {
   command.add_flag("--design", a.design, "which overlap measures a given 1/D_t best");
   command.add_option("--compliance-t", a.overlap.compliances_t, "with --design: 1/D_t in mm/MPa, a list")
       ->delimiter(',')
@@ -162,7 +162,7 @@ void add_design_options(CLI::App& command, Arguments& a) {
 }  // namespace
 
 void add_bondline(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<BondlineArguments>();
   auto* command = app.add_subcommand("bondline", "glue-line compliance 1/D_t from double-lap-shear tests");
   add_analysis_options(*command, *arguments);
   command->add_option("--formula", arguments->formula, "coth, or le2010 as printed in Le (2010)")

@@ -13,12 +13,12 @@
 namespace strandlab::app {
 namespace {
 
-struct Arguments {
+struct InitArguments {
   std::string name = "osb";
   bool reference = false;
 };
 
-void init(const Arguments& arguments) {
+void init(const InitArguments& arguments) {
   if (arguments.reference) {
     print("{}", cases::reference_text());
     return;
@@ -30,7 +30,7 @@ void init(const Arguments& arguments) {
 }  // namespace
 
 void add_init(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<InitArguments>();
   auto* command = app.add_subcommand("init", "print a commented case to start from");
   command->add_option("NAME", arguments->name, "ready case: " + quoted_list(cases::ready_cases()))
       ->capture_default_str();

@@ -11,11 +11,11 @@
 namespace strandlab::app {
 
 void add_movie(CLI::App& app) {
-  struct Arguments {
+  struct MovieArguments {
     std::string folder, out = "press.mp4", colour = "grain_angle";
     run::FilmOptions film;
   };
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<MovieArguments>();
   auto* command = app.add_subcommand("movie", "the pressing of a run folder as a film (.mp4 or .gif), by ffmpeg");
   command->add_option("DIR", arguments->folder, "run folder")->required();
   command->add_option("-o,--output", arguments->out, "film to write")->capture_default_str();

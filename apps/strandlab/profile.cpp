@@ -19,13 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ProfileArguments {
   run::ProfileQuestion question;
   std::string folder;
   bool force = false;
 };
 
-void profile_runs(const Arguments& a) {
+void profile_runs(const ProfileArguments& a) {
   const auto folder = a.folder.empty() ? run::profile_folder(a.question) : fs::path(a.folder);
   std::error_code error;
   if (!a.force && fs::exists(folder / "profile.csv", error))
@@ -38,7 +38,7 @@ void profile_runs(const Arguments& a) {
   print("written: {}\n", printable(folder.string()));
 }
 
-void add_measured_options(CLI::App& command, Arguments& a) {
+void add_measured_options(CLI::App& command, ProfileArguments& a) {
   command
       .add_option("--measured", a.question.measured,
                   "exports of an X-ray densitometer to draw over the simulated profile")
@@ -62,7 +62,7 @@ void add_measured_options(CLI::App& command, Arguments& a) {
 }  // namespace
 
 void add_profile(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ProfileArguments>();
   auto* command = app.add_subcommand("profile", "density profiles of pressed panels: replicates, measured ones");
   command->add_option("RUN", arguments->question.runs, "run folders; several are replicates: one case, other seeds")
       ->required();

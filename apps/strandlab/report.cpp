@@ -11,10 +11,10 @@
 namespace strandlab::app {
 
 void add_report(CLI::App& app) {
-  struct Arguments {
+  struct ReportArguments {
     std::string folder, out;
   };
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ReportArguments>();
   auto* command = app.add_subcommand("report", "make report.html of a run folder again");
   command->add_option("DIR", arguments->folder, "run folder")->required();
   command->add_option("-o,--output", arguments->out, "file to write (default: report.html in the run folder)");

@@ -16,7 +16,7 @@
 namespace strandlab::app {
 namespace {
 
-struct Arguments {
+struct TheoryArguments {
   std::string file, csv, off_axis;
   std::vector<std::string> overrides;
   std::vector<double> compactions, compliances;
@@ -24,7 +24,7 @@ struct Arguments {
 };
 
 // The question a case asks, with what the flags change.
-theory::Question question_of(const Arguments& a) {
+theory::Question question_of(const TheoryArguments& a) {
   const auto c = a.file.empty() ? cases::ready_case("osb") : cases::read_case(a.file, a.overrides);
   if (a.file.empty() && !a.overrides.empty()) throw InputError("--set changes keys of a case; give a case file too");
   theory::Question q = a.question;
@@ -38,7 +38,7 @@ theory::Question question_of(const Arguments& a) {
   return q;
 }
 
-void estimate(const Arguments& a) {
+void estimate(const TheoryArguments& a) {
   const auto q = question_of(a);
   const auto estimates = theory::estimate(q);
   if (a.csv == "-") {
@@ -52,7 +52,7 @@ void estimate(const Arguments& a) {
 }  // namespace
 
 void add_theory(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<TheoryArguments>();
   auto* command = app.add_subcommand("theory", "closed-form estimates of a panel's density and moduli, at once");
   auto& a = *arguments;
   command->add_option("CASE", a.file, "case file (default: the ready OSB case)");

@@ -9,8 +9,6 @@
 namespace strandlab::bondline {
 namespace {
 
-constexpr double kNormal975 = 1.959963984540054;
-
 // Text inside a double-quoted gnuplot string of a terminal with enhanced text switched off.
 std::string escaped(const std::string& text) {
   std::string result;

@@ -14,7 +14,6 @@
 namespace strandlab::bondline {
 namespace {
 
-constexpr double kNormal975 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
 
 double square(double x) {
   return x * x;

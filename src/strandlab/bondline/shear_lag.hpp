@@ -7,6 +7,8 @@
 
 namespace strandlab::bondline {
 
+inline constexpr double kNormal975 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
+
 // Which closed form of the compliance ratio C/C_inf is used.
 enum class Formula {
   kCoth,    // shear-lag solution in tanh and coth (default)

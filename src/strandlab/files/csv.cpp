@@ -12,7 +12,7 @@
 namespace strandlab::files {
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) {
@@ -31,7 +31,7 @@ std::string number(double value) {
 std::string cell_text(const CsvCell& cell) {
   if (const auto* value = std::get_if<double>(&cell)) return number(*value);
   if (const auto* count = std::get_if<long long>(&cell)) return fmt::format("{}", *count);
-  return quoted(std::get<std::string>(cell));
+  return csv_field(std::get<std::string>(cell));
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ std::string CsvTable::text() const {
     }
     out += '\n';
   };
-  add_line(columns_, quoted);
+  add_line(columns_, csv_field);
   for (const auto& row : rows_) add_line(row, cell_text);
   return out;
 }

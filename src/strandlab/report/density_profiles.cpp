@@ -44,7 +44,7 @@ std::vector<std::string> summary_columns(std::vector<std::string> first) {
   return first;
 }
 
-std::string percent(double compaction) {
+std::string in_percent(double compaction) {
   return fmt::format("{} %", std::abs(std::round(1e4 * compaction) / 100));
 }
 
@@ -102,7 +102,7 @@ files::CsvTable profile_summary_table(const std::vector<profile::Profile>& state
 std::optional<std::string> plot_density_profiles(const std::vector<profile::Profile>& states,
                                                  const std::filesystem::path& png) {
   Plot plot = profile_plot("Density profile", "compaction");
-  for (const auto& p : states) plot.curves.push_back(curve_of(p, percent(p.compaction)));
+  for (const auto& p : states) plot.curves.push_back(curve_of(p, in_percent(p.compaction)));
   return draw(plot, png);
 }
 
@@ -165,7 +165,7 @@ std::optional<std::string> plot_mean_profiles(const std::vector<profile::Mean>& 
                                               const std::filesystem::path& png) {
   Plot plot = profile_plot("Density profile, mean and 95 % t-interval of the replicates", "compaction");
   for (const auto& mean : means) {
-    plot.curves.push_back(curve_of(mean.profile(), percent(mean.compaction)));
+    plot.curves.push_back(curve_of(mean.profile(), in_percent(mean.compaction)));
     plot.bands.push_back(band_of(mean));
   }
   return draw(plot, png);
@@ -218,7 +218,7 @@ std::optional<std::string> plot_measured_profiles(const profile::Mean& simulated
                                                   const std::filesystem::path& png) {
   const double rms = profile::rms_difference(simulated.profile(), measured.profile());
   Plot plot = profile_plot(fmt::format("Simulated at {} compaction, and measured: rms difference {:.0f} kg/m³",
-                                       percent(simulated.compaction), rms),
+                                       in_percent(simulated.compaction), rms),
                            "");
   const auto count = [](const profile::Mean& mean) { return mean.density_kg_m3.front().n; };
   plot.curves.push_back(curve_of(simulated.profile(), fmt::format("simulated, n = {}", count(simulated))));

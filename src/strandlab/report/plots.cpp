@@ -24,7 +24,7 @@ std::string title_of(const std::string& test) {
 double rounded_percent(double compaction) {
   return std::round(1e4 * compaction) / 100;
 }
-std::string percent(double compaction) {
+std::string compaction_percent(double compaction) {
   return fmt::format("{} %", std::abs(rounded_percent(compaction)));
 }
 
@@ -75,7 +75,7 @@ Warning plot_histograms(const std::vector<Morphology>& states, Histogram Morphol
     const Histogram& h = state.*quantity;
     // A mat as formed is one bar that would dwarf the rest.
     if (states.size() == 1 || h.highest - h.lowest > h.edges[1] - h.edges[0]) {
-      plot.curves.push_back(outline(h, percent(state.compaction)));
+      plot.curves.push_back(outline(h, compaction_percent(state.compaction)));
     }
   }
   fit_axis(plot, std::nullopt);
@@ -103,7 +103,7 @@ Warning plot_modulus_against_compliance(const std::vector<PanelModulus>& moduli,
   }
   Plot plot{title_of(test), "1/Dₜ, mm/MPa", "modulus, MPa", "compaction", CurveStyle::kLinesAndPoints, 0, 1, {},
             references};
-  for (const auto& [compaction, points] : curves) plot.curves.push_back(curve_of(percent(compaction / 100), points));
+  for (const auto& [compaction, points] : curves) plot.curves.push_back(curve_of(compaction_percent(compaction / 100), points));
   fit_axis(plot, std::nullopt);
   return draw(plot, png);
 }

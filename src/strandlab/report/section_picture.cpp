@@ -16,7 +16,7 @@
 namespace strandlab::report {
 namespace {
 
-constexpr double kTrimmed = 0.02;  // share of the wood at each end that the colour range may leave out
+constexpr double kTrimmedEnds = 0.02;  // share of the wood at each end that the colour range may leave out
 
 double shown_value(const Strand<2>& strand, std::size_t point, Colouring colouring) {
   return colouring == Colouring::kGrainAngle ? grain_angle_deg<2>(strand.points.F[point])
@@ -246,7 +246,7 @@ ColourRange common_range(const std::vector<const Panel<2>*>& panels, Colouring c
   const auto at = [&values](double share) {
     return values.empty() ? 0.0 : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
   };
-  const double low = at(kTrimmed), high = at(1 - kTrimmed);
+  const double low = at(kTrimmedEnds), high = at(1 - kTrimmedEnds);
   if (colouring == Colouring::kGrainAngle) {
     constexpr double kSteepest = 30;  // degrees; folds at strand ends would wash out the rest
     const double limit = std::min(kSteepest, std::ceil(std::max({-low, high, 1.0}) - 1e-9));

@@ -71,19 +71,19 @@ TEST(Schedule, OrderAndOverlap) {
                  "it begins at 30 s, but the one before it ends at 25 s");
 }
 
-const MatSize kMat{7.68, .025, 7.68 / 350, 7.68 / 1500};
+const MatSize kSize{7.68, .025, 7.68 / 350, 7.68 / 1500};
 
 TEST(Schedule, TargetsAsThickness) {
-  EXPECT_DOUBLE_EQ(thickness_of({Target::Kind::kThickness, .012}, kMat), .012);
-  EXPECT_DOUBLE_EQ(thickness_of({Target::Kind::kDensity, 640}, kMat), .012);
-  EXPECT_DOUBLE_EQ(thickness_of({Target::Kind::kCompaction, .4}, kMat), .015);
+  EXPECT_DOUBLE_EQ(thickness_of({Target::Kind::kThickness, .012}, kSize), .012);
+  EXPECT_DOUBLE_EQ(thickness_of({Target::Kind::kDensity, 640}, kSize), .012);
+  EXPECT_DOUBLE_EQ(thickness_of({Target::Kind::kCompaction, .4}, kSize), .015);
 }
 
 TEST(Schedule, TargetsThatAreNeverReached) {
   const auto message = [](const std::vector<std::string>& texts) {
-    return test::message_of<InputError>([&] { check_targets(parse_schedule(texts), kMat); });
+    return test::message_of<InputError>([&] { check_targets(parse_schedule(texts), kSize); });
   };
-  check_targets(parse_schedule({"close to 14 mm in 10 s", "hold 20 s", "close to 12 mm in 10 s"}), kMat);
+  check_targets(parse_schedule({"close to 14 mm in 10 s", "hold 20 s", "close to 12 mm in 10 s"}), kSize);
   EXPECT_EQ(message({"close to 22 mm in 25 s"}),
             "phase \"close to 22 mm in 25 s\": 22 mm is never reached by closing: the mat is 21.94 mm before it");
   EXPECT_EQ(message({"close to 12 mm in 25 s", "close to 13 mm in 5 s"}),

@@ -14,7 +14,7 @@
 namespace strandlab::mpm {
 namespace {
 
-constexpr double kCell = 0.5;  // mm
+constexpr double kFilterCell = 0.5;  // mm
 
 // A block of 6^Dim particles, two per cell and axis, of random velocities so small that it moves by nothing.
 template <int Dim>
@@ -24,7 +24,7 @@ Body<Dim> noisy_block() {
   std::array<int, Dim> counts{};
   counts.fill(6);
   auto s = test::strand_from<Dim>(wood::in_strand_axes(wood::library().front(), 0), Vec<Dim>::Constant(0.07),
-                                  Vec<Dim>::Constant(kCell / 2), counts);
+                                  Vec<Dim>::Constant(kFilterCell / 2), counts);
   s.kind = "surface";
   for (auto& v : s.points.v) {
     for (int a = 0; a < Dim; ++a) v[a] = 1e-6 * unit(random);
@@ -41,7 +41,7 @@ Eigen::MatrixXd weights(const Body<Dim>& body) {
     std::array<int, Dim> node;
     std::array<Gimp3, Dim> axis;
     for (int a = 0; a < Dim; ++a) {
-      const double xi = body.points.x[p][a] / kCell;
+      const double xi = body.points.x[p][a] / kFilterCell;
       node[a] = static_cast<int>(std::lround(xi));
       axis[a] = gimp(xi - node[a], 0.25);
     }
@@ -76,7 +76,7 @@ void expect_filtered() {
   const Eigen::MatrixXd at_nodes = to_nodes * v;
   const Eigen::MatrixXd expected = S * (2 * at_nodes - to_nodes * (S * at_nodes));
   Grid<Dim> grid;
-  grid.cell = Vec<Dim>::Constant(kCell);
+  grid.cell = Vec<Dim>::Constant(kFilterCell);
   grid.origin = Vec<Dim>::Zero();
   grid.lo = Vec<Dim>::Constant(-2);
   grid.hi = Vec<Dim>::Constant(6);

@@ -14,7 +14,7 @@ namespace {
 
 using test::VecNear;
 
-constexpr double kCell = 0.5;  // mm
+constexpr double kLoadCell = 0.5;  // mm
 
 // A block of 8 (x 6) x 4 particles, two per cell and axis, its lowest corner at `corner`.
 template <int Dim>
@@ -25,7 +25,7 @@ Body<Dim> block_at(const Vec<Dim>& corner) {
   counts.fill(6);
   counts[0] = 8;
   counts[Dim - 1] = 4;
-  auto s = test::strand_from<Dim>(wood::in_strand_axes(stiff, 0), corner, Vec<Dim>::Constant(kCell / 2), counts);
+  auto s = test::strand_from<Dim>(wood::in_strand_axes(stiff, 0), corner, Vec<Dim>::Constant(kLoadCell / 2), counts);
   s.kind = "block";
   return body_of(s);
 }
@@ -33,7 +33,7 @@ Body<Dim> block_at(const Vec<Dim>& corner) {
 template <int Dim>
 Grid<Dim> open_grid() {
   Grid<Dim> grid;
-  grid.cell = Vec<Dim>::Constant(kCell);
+  grid.cell = Vec<Dim>::Constant(kLoadCell);
   grid.origin = Vec<Dim>::Constant(0.11);
   grid.lo = Vec<Dim>::Constant(-4);
   grid.hi = Vec<Dim>::Constant(12);
@@ -62,7 +62,7 @@ void expect_work_of_gravity() {
   Vec<Dim> apart = Vec<Dim>::Zero(), above = Vec<Dim>::Zero();
   apart[0] = 5;
   apart[y] = 4;
-  above[y] = 4 * kCell / 2 + 0.05;
+  above[y] = 4 * kLoadCell / 2 + 0.05;
   std::vector<Body<Dim>> bodies{block_at<Dim>(Vec<Dim>::Zero()), block_at<Dim>(above), block_at<Dim>(apart)};
   for (auto& v : bodies[1].points.v) v[y] = -20000;  // mm/s: over the gap within 70 steps
   std::vector<Vec<Dim>> start;
@@ -110,7 +110,7 @@ void expect_tractions_balance_stress() {
     engine.set_traction(0, static_cast<int>(f), sigma * body.faces[f].area[0].normalized());
   engine.step();
   engine.write(bodies);
-  const double unbalanced = dt * sigma.norm() / (body.material.density * kCell);  // mm/s, by one face alone
+  const double unbalanced = dt * sigma.norm() / (body.material.density * kLoadCell);  // mm/s, by one face alone
   for (const auto& v : bodies[0].points.v) ASSERT_THAT(v, VecNear(Vec<Dim>(Vec<Dim>::Zero()), 1e-12 * unbalanced));
   EXPECT_NEAR(engine.energies().external_work, 0, 1e-12 * unbalanced);
 }

@@ -9,13 +9,13 @@
 namespace strandlab::vtest {
 namespace {
 
-struct Piece {
+struct StrandOfRow {
   int row;
   double x0, x1;
 };
 
 // Strands of poplar, 0.8 mm thick, in a window of 20 mm.
-Panel<2> panel_of(const std::vector<Piece>& pieces, double angle_deg = 0) {
+Panel<2> panel_with(const std::vector<StrandOfRow>& pieces, double angle_deg = 0) {
   mat::Mat mat;
   mat.length_mm = 20;
   mat.layer_thickness_mm = 0.8;
@@ -29,7 +29,7 @@ Panel<2> panel_of(const std::vector<Piece>& pieces, double angle_deg = 0) {
 }
 
 Panel<2> laminate() {
-  return panel_of({{0, 0, 20}, {1, 0, 20}, {2, 0, 20}});
+  return panel_with({{0, 0, 20}, {1, 0, 20}, {2, 0, 20}});
 }
 
 std::string message_of(const std::function<void()>& action) {
@@ -56,7 +56,7 @@ TEST(Kind, HasANameThatLeadsBack) {
 // Gap-free strands at 0, 45 and 90 degrees to the section: plane-strain moduli of a row, 10003.3, 3379.3 and 429.9 MPa.
 TEST(Measure, GivesTheModulusOfTheWoodItself) {
   for (const auto& [angle, modulus] : {std::pair{0.0, 10003.3}, std::pair{45.0, 3379.3}, std::pair{90.0, 429.9}}) {
-    const auto result = measure(panel_of({{0, 0, 20}, {1, 0, 20}}, angle), {});
+    const auto result = measure(panel_with({{0, 0, 20}, {1, 0, 20}}, angle), {});
     ASSERT_EQ(result.moduli.size(), 2U);
     for (const auto& m : result.moduli) EXPECT_NEAR(m.modulus_MPa, modulus, 0.1) << name(m.kind) << " at " << angle;
     EXPECT_NEAR(result.glued_fraction, 1, 1e-9);
@@ -81,7 +81,7 @@ TEST(Measure, ReportsInTheOrderAskedFor) {
 
 // The strand in the middle row hangs on the left strand only: it is not connected to the right end and carries nothing.
 TEST(Measure, DropsStrandsThatFloat) {
-  const auto result = measure(panel_of({{0, 0, 20}, {2, 0, 6}, {3, 5, 12}}), {});
+  const auto result = measure(panel_with({{0, 0, 20}, {2, 0, 6}, {3, 5, 12}}), {});
   EXPECT_EQ(result.strands, 3);
   EXPECT_EQ(result.floating_strands, 2);
   // One strand of 0.8 mm carries the tension of a panel 3.2 mm thick.
@@ -90,7 +90,7 @@ TEST(Measure, DropsStrandsThatFloat) {
 
 // Two stacks that do not touch, both between the end planes: in tension they simply add up.
 TEST(Measure, HoldsGroupsThatDoNotTouch) {
-  const auto result = measure(panel_of({{0, 0, 20}, {2, 0, 20}}), {});
+  const auto result = measure(panel_with({{0, 0, 20}, {2, 0, 20}}), {});
   EXPECT_EQ(result.floating_strands, 0);
   EXPECT_NEAR(result.moduli[0].modulus_MPa, 10003.3 * 2 / 3, 0.1);
 }
@@ -99,8 +99,8 @@ TEST(Measure, HoldsGroupsThatDoNotTouch) {
 // stretched stack, 3 mm longer than the window at both ends, and a strand wholly outside.
 TEST(Measure, CutsTheSpecimenAtTheWindow) {
   Options options;
-  const auto inside = measure(panel_of({{0, 0, 20}, {1, 0, 20}}), options);
-  auto panel = panel_of({{0, 0, 18}, {0, 18.1, 20}, {1, 0, 20}});
+  const auto inside = measure(panel_with({{0, 0, 20}, {1, 0, 20}}), options);
+  auto panel = panel_with({{0, 0, 18}, {0, 18.1, 20}, {1, 0, 20}});
   const double stretch = 1.3;  // about the middle: ends at -3 and 23 mm; the short strand from 20.53 mm
   for (auto& strand : panel.strands) {
     for (auto& x : strand.points.x) x[0] = 10 + stretch * (x[0] - 10);
@@ -120,7 +120,7 @@ TEST(Measure, CutsTheSpecimenAtTheWindow) {
 }
 
 TEST(Measure, SaysWhenNothingConnectsTheEnds) {
-  const auto message = message_of([] { measure(panel_of({{0, 0, 9}, {1, 12, 20}}), {}); });
+  const auto message = message_of([] { measure(panel_with({{0, 0, 9}, {1, 12, 20}}), {}); });
   EXPECT_NE(message.find("connect the two ends"), std::string::npos);
 }
 
@@ -130,7 +130,7 @@ TEST(Measure, SaysWhenNothingConnectsTheEnds) {
 TEST(Measure, TellsHowFarGlueLinesSlide) {
   Options options;
   options.compliance_t_mm_per_MPa = {0, 10, 0.1};
-  const auto lap = panel_of({{0, 0, 12}, {1, 8, 20}});
+  const auto lap = panel_with({{0, 0, 12}, {1, 8, 20}});
   const auto result = measure(lap, options);
   EXPECT_EQ(result.slip_compliance_t_mm_per_MPa, 10);
   ASSERT_GT(result.slips.size(), 10U);
@@ -153,7 +153,7 @@ TEST(Measure, RaisesGlueThatIsTooSoftToTheFloorAndSaysSo) {
   Options options;
   options.compliance_t_mm_per_MPa = {1e9};
   options.kinds = {Kind::kTension};
-  const auto result = measure(panel_of({{0, 0, 12}, {1, 8, 20}}), options);
+  const auto result = measure(panel_with({{0, 0, 12}, {1, 8, 20}}), options);
   EXPECT_NEAR(result.moduli[0].modulus_MPa, 1e-3 * 4 * 20 / 1.6, 1e-3 * 0.05);
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_NE(result.warnings[0].find("0.001 MPa/mm"), std::string::npos);
@@ -163,7 +163,7 @@ TEST(Measure, RaisesGlueThatIsTooSoftToTheFloorAndSaysSo) {
 TEST(Measure, TakesANegativeComplianceAsAPerfectBond) {
   Options options;
   options.compliance_t_mm_per_MPa = {0, -0.00022};
-  const auto result = measure(panel_of({{0, 0, 12}, {1, 8, 20}}), options);
+  const auto result = measure(panel_with({{0, 0, 12}, {1, 8, 20}}), options);
   EXPECT_DOUBLE_EQ(result.moduli[0].modulus_MPa, result.moduli[2].modulus_MPa);
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_NE(result.warnings[0].find("negative"), std::string::npos);
@@ -172,9 +172,9 @@ TEST(Measure, TakesANegativeComplianceAsAPerfectBond) {
 // A glue line that opens easily costs stiffness, as one that shears easily does.
 TEST(Measure, FeelsTheNormalCompliance) {
   Options options;
-  const auto rigid = measure(panel_of({{0, 0, 12}, {1, 8, 20}}), options);
+  const auto rigid = measure(panel_with({{0, 0, 12}, {1, 8, 20}}), options);
   options.compliance_n_mm_per_MPa = 0.05;
-  const auto soft = measure(panel_of({{0, 0, 12}, {1, 8, 20}}), options);
+  const auto soft = measure(panel_with({{0, 0, 12}, {1, 8, 20}}), options);
   EXPECT_LT(soft.moduli[0].modulus_MPa, 0.99 * rigid.moduli[0].modulus_MPa);
 }
 
@@ -183,10 +183,10 @@ TEST(Measure, FeelsTheNormalCompliance) {
 TEST(Measure, AppliesTheCoupleToStrandsThatReachTheLoadedEnd) {
   Options options;
   options.kinds = {Kind::kBendingEndCouple};
-  const auto message = message_of([&] { measure(panel_of({{0, 0, 20}, {1, 0, 12}}), options); });
+  const auto message = message_of([&] { measure(panel_with({{0, 0, 20}, {1, 0, 12}}), options); });
   EXPECT_NE(message.find("two strands at the loaded end"), std::string::npos);
-  const auto with_short_top = measure(panel_of({{0, 0, 20}, {1, 0, 20}, {2, 0, 1}}), options);
-  const auto without = measure(panel_of({{0, 0, 20}, {1, 0, 20}}), options);
+  const auto with_short_top = measure(panel_with({{0, 0, 20}, {1, 0, 20}, {2, 0, 1}}), options);
+  const auto without = measure(panel_with({{0, 0, 20}, {1, 0, 20}}), options);
   // The short strand stiffens the clamped end a little; the modulus is per h^3, and h is 1.5 times as large.
   EXPECT_NEAR(with_short_top.moduli[0].modulus_MPa * 3.375 / without.moduli[0].modulus_MPa, 1.03, 0.03);
 }
@@ -197,12 +197,12 @@ TEST(Measure, BendsOnSupportsWhatIsLongEnough) {
   Options options;
   options.kinds = {Kind::kBending4Point, Kind::kTension};
   options.span_to_thickness = 23;
-  const auto result = measure(panel_of({{0, 0, 20}}), options);
+  const auto result = measure(panel_with({{0, 0, 20}}), options);
   EXPECT_EQ(result.moduli[0].kind, Kind::kBending4Point);
   EXPECT_NEAR(*result.moduli[0].shear_free_modulus_MPa, 10003.3, 50);  // three elements through the whole beam
   EXPECT_FALSE(result.moduli[1].shear_free_modulus_MPa.has_value());
   options.span_to_thickness = 23.1;
-  const auto message = message_of([&] { measure(panel_of({{0, 0, 20}}), options); });
+  const auto message = message_of([&] { measure(panel_with({{0, 0, 20}}), options); });
   for (const char* part : {"23.1 thicknesses of 0.80 mm", "needs a panel 21 mm long", "this one has 20 mm"})
     EXPECT_NE(message.find(part), std::string::npos) << part << " in " << message;
 }
@@ -211,11 +211,11 @@ TEST(Measure, BendsOnSupportsOnlyWhatIsInOnePiece) {
   Options options;
   options.kinds = {Kind::kBending3Point};
   options.span_to_thickness = 6.25;
-  const auto stacks = panel_of({{0, 0, 20}, {2, 0, 20}});
+  const auto stacks = panel_with({{0, 0, 20}, {2, 0, 20}});
   EXPECT_NE(message_of([&] { measure(stacks, options); }).find("6.25 thicknesses"), std::string::npos);
   options.span_to_thickness = 8;
   options.pad_to_thickness = 0;
-  auto panel = panel_of({{0, 0, 20}});
+  auto panel = panel_with({{0, 0, 20}});
   EXPECT_NE(message_of([&] { measure(panel, options); }).find("pads of 0 thicknesses"), std::string::npos);
   options.pad_to_thickness = 0.5;
   panel = stacks;
@@ -230,7 +230,7 @@ TEST(Measure, BendsOnSupportsOnlyWhatIsInOnePiece) {
 // A lap joint whose faces open from 0 at x = 8 to 0.24 mm at x = 20: the glued length is proportional to the curing
 // gap, and with soft glue and stiff strands so is the tension modulus.
 TEST(GapSensitivity, TellsWhatHalfAndTwiceTheGapDo) {
-  auto panel = panel_of({{0, 0, 20}, {1, 8, 20}, {2, 8, 20}, {3, 8, 20}});
+  auto panel = panel_with({{0, 0, 20}, {1, 8, 20}, {2, 8, 20}, {3, 8, 20}});
   panel.strands.erase(panel.strands.begin() + 2, panel.strands.end());
   for (auto& x : panel.strands[0].points.x) x[0] *= 0.99;  // does not reach the right end
   for (auto& F : panel.strands[0].points.F) F(0, 0) = 0.99;
