@@ -174,7 +174,8 @@ void settle_states(Case& c, const mat::Mat& mat) {
     const double compaction =
         std::round(kStates * (1 - (by_density ? formed / asked[i] : asked[i] / formed))) / kStates;
     if (compaction < 0)
-      fail(fmt::format("is {} the mat as formed, which has {:.4g} {}", by_density ? "below" : "above", formed, unit));
+      fail(fmt::format("is {} the mat as formed, which has {:.4g} {}: begin there or denser",
+                       by_density ? "below" : "above", formed, unit));
     if (compaction >= 1) fail("leaves nothing of the mat");
     if (!compactions.empty() && compaction <= compactions.back())
       fail(fmt::format("is the same state as the entry before: both are compaction {}", compaction));
