@@ -49,13 +49,23 @@ void refuse_unknown_command(const CLI::App& app, const std::string& given) {
                                           strandlab::quoted_list(names)));
 }
 
+// The shell takes --set press.compactions=[0, 0.4] apart at its space.
+std::string list_hint(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument.find("=[") != std::string::npos && argument.find(']') == std::string::npos)
+      return fmt::format(" A list needs quotes, or no spaces: --set '{} ...]'.", strandlab::shortened(argument));
+  }
+  return {};
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Presses random strand mats and measures the moduli of the panels.", "strandlab");
   app.set_version_flag("--version",
                        fmt::format("strandlab {} ({})", strandlab::version(), strandlab::run::git_commit()));
   app.require_subcommand(1);
-  app.failure_message([](const CLI::App*, const CLI::Error& e) {
-    return fmt::format("{}\nRun with --help for more information.\n", shown(e.what()));
+  app.failure_message([&](const CLI::App*, const CLI::Error& e) {
+    return fmt::format("{}\nRun with --help for more information.\n", shown(e.what() + list_hint(argc, argv)));
   });
   strandlab::app::add_init(app);
   strandlab::app::add_check(app);

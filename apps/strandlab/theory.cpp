@@ -25,10 +25,12 @@ struct TheoryArguments {
 
 // The question a case asks, with what the flags change.
 theory::Question question_of(const TheoryArguments& a) {
-  const auto c = a.file.empty() ? cases::ready_case("osb") : cases::read_case(a.file, a.overrides);
+  auto c = a.file.empty() ? cases::ready_case("le2010_osb") : cases::read_case(a.file, a.overrides);
   if (a.file.empty() && !a.overrides.empty()) throw InputError("--set changes keys of a case; give a case file too");
   theory::Question q = a.question;
-  q.rows = run::theory_rows(c, cases::make_mat(c));
+  const auto mat = cases::make_mat(c);
+  cases::settle_states(c, mat);
+  q.rows = run::theory_rows(c, mat);
   q.compactions = a.compactions.empty() ? c.schedule.compactions : a.compactions;
   q.compliances_t = a.compliances.empty() ? c.test.compliance_t_mm_per_MPa : a.compliances;
   for (double& compliance : q.compliances_t) compliance = std::max(compliance, 0.0);  // as the virtual tests take it
@@ -55,7 +57,7 @@ void add_theory(CLI::App& app) {
   auto arguments = std::make_shared<TheoryArguments>();
   auto* command = app.add_subcommand("theory", "closed-form estimates of a panel's density and moduli, at once");
   auto& a = *arguments;
-  command->add_option("CASE", a.file, "case file (default: the ready OSB case)");
+  command->add_option("CASE", a.file, "case file (default: the ready case le2010_osb)");
   command->add_option("--set", a.overrides, "change a key of the case, key.path=value");
   command->add_option("--compaction", a.compactions, "list (default: those of the case)")->delimiter(',');
   command->add_option("--compliance-t", a.compliances, "1/D_t in mm/MPa, list (default: those of the case)")

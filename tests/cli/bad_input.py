@@ -19,6 +19,7 @@ def usage():
     expect_bad_input(["chek", "osb.toml"], ["unknown command \"chek\"", "did you mean \"check\"?"])
     expect_bad_input(["check"], ["CASE is required"])
     expect_bad_input(["check", "osb.toml", "--frce"], ["--frce"])
+    expect_bad_input(["check", "osb.toml", "--set", "press.compactions=[0,", "0.4]"], ["A list needs quotes, or no spaces: --set 'press.compactions=[0, ...]'"])
     expect_bad_input(["check", "osb.toml", "other.toml"], ["other.toml"])
     expect_bad_input(["init", "obs"], ["no ready case \"obs\"", "did you mean \"osb\"?"])
     expect_bad_input(["check", "none.toml"], ["none.toml: no such case file"])

@@ -4,6 +4,7 @@ import csv
 import json
 import pathlib
 import random
+import re
 import subprocess
 import time
 
@@ -176,6 +177,35 @@ def nothing_to_test():
     check(strandlab("test", "a.toml").returncode == 2, "test")
 
 
+# The same by densities.
+BY_DENSITY = CASE.replace("compactions = [0, 0.02, 0.04]", "densities_kg_m3 = [300, 310]")
+
+
+def densities():
+    """Densities are solved for the weight of the mat; from then on the folder is that of any other run."""
+    pathlib.Path("a.toml").write_text(BY_DENSITY, encoding="utf-8")
+    shown = strandlab("check", "a.toml").stdout
+    formed = float(re.search(r"# as formed: ([0-9.]+) kg/m3", shown).group(1))
+    result = strandlab("run", "a.toml", "-o", "out")
+    check(result.returncode == DONE, f"run: {result.stderr}")
+    states = json.loads(pathlib.Path("out/run.json").read_text(encoding="utf-8"))["states"]
+    for state, asked in zip(states, (300, 310), strict=True):
+        check(abs(state["density_kg_m3"] - asked) < 0.1, f"density: {state}")
+        check(abs(state["compaction"] - (1 - formed / asked)) < 2e-4, f"compaction of {asked} from {formed}: {state}")
+        check(f"# kept at compaction {state['compaction']}: " in shown, f"check says {state['compaction']}")
+        check(pathlib.Path(f"out/panels/panel_{state['compaction']}.h5").exists(), f"panel at {state['compaction']}")
+    moduli = read_csv("out/moduli.csv")
+    check({m["compaction"] for m in moduli} == {str(s["compaction"]) for s in states}, "moduli.csv names the states")
+    check(all(abs(float(m["density_kg_m3"]) - 300) < 0.1 for m in moduli if m["compaction"] == str(states[0]["compaction"])),
+          "moduli.csv has their densities")
+    check("finished" in strandlab("run", "out/case.toml", "-o", "out").stdout, "case.toml is the same case")
+    expect_bad_input(["run", "a.toml", "-o", "out", "--set", "press.densities_kg_m3=[300, 320]"], ["another case", "densities_kg_m3"])
+    expect_bad_input(["check", "a.toml", "--set", "press.densities_kg_m3=[200, 320]"], ["entry 1, 200 kg/m3, is below the mat as formed"])
+    for command in (("report", "out"), ("profile", "out", "-o", "profile")):
+        result = strandlab(*command)
+        check(result.returncode == DONE, f"{command[0]}: {result.stderr}")
+
+
 def threads():
     pathlib.Path("a.toml").write_text(CASE, encoding="utf-8")
     for count in (1, 2, 3):
@@ -186,7 +216,7 @@ def threads():
 
 def killed():
     """kill -9 at random moments of the whole run, again and again, then to the end."""
-    pathlib.Path("a.toml").write_text(CASE, encoding="utf-8")
+    pathlib.Path("a.toml").write_text(BY_DENSITY, encoding="utf-8")
     begin = time.monotonic()
     check(strandlab("run", "a.toml", "-o", "whole").returncode == DONE, "whole run")
     whole_s = time.monotonic() - begin
@@ -216,7 +246,7 @@ def failing():
     check(result.stderr.split(": ", 1)[1].strip() in pathlib.Path("runs/a/log.txt").read_text(encoding="utf-8"), "the log has the error")
 
 
-for test in (init_and_check, overrides, single_steps, run_folder, missing_results, not_testable, nothing_to_test, threads, killed, failing):
+for test in (init_and_check, overrides, single_steps, run_folder, missing_results, not_testable, nothing_to_test, densities, threads, killed, failing):
     with scratch():
         test()
 finish()

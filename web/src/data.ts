@@ -15,8 +15,9 @@ export interface Material {
   E_L_MPa: number;
   E_R_MPa: number;
   E_T_MPa: number;
+  law: string;              // hill or crushing: the constants of yielding are those of this law
   Y_R_MPa: number;
-  hardening_K_MPa: number;
+  hardening_K_MPa?: number;  // of Hill's law
 }
 
 export interface CaseData {
@@ -26,6 +27,7 @@ export interface CaseData {
   kinds: Kind[];
   materials: Material[];
   compactions: number[];
+  densities_kg_m3: number[];  // of the panel at each of them; empty in runs of older programs
   speed_m_s: number;
   friction: number;
   compliances_t_mm_per_MPa: number[];

@@ -17,6 +17,17 @@ function percent(compaction: number): string {
   return `${Number((100 * compaction).toFixed(1))} %`;
 }
 
+// A kept state by its density, or by its compaction where that is not known; and by both.
+function stateName(run: Run, compaction: number): string {
+  const density = run.case.densities_kg_m3[run.case.compactions.indexOf(compaction)];
+  return density === undefined ? percent(compaction) : `${Math.round(density)} kg/m³`;
+}
+
+function fullStateName(run: Run, compaction: number): string {
+  const name = stateName(run, compaction), share = percent(compaction);
+  return name === share ? share : `${share} (${name})`;
+}
+
 function table(run: Run, name: string): Table | undefined {
   const text = run.tables[name];
   const parsed = text ? parseCsv(text) : undefined;
@@ -30,6 +41,9 @@ function tiles(run: Run): HTMLElement | null {
   const film = run.frames.frames;
   const last = film[film.length - 1];
   if (last) facts.push(['Thickness', formatNumber(last.top_mm - last.bottom_mm), `mm at ${percent(last.compaction)} compaction`]);
+  const densities = run.case.densities_kg_m3;
+  const density = densities[densities.length - 1];
+  if (last && density !== undefined) facts.push(['Density', density.toFixed(0), 'kg/m³, mean of the thickness']);
   const press = table(run, 'press.csv');
   if (press) facts.push(['Highest pressure', formatNumber(Math.max(...press.numbers('stress_MPa'))), 'MPa on the platens']);
   const moduli = table(run, 'moduli.csv');
@@ -39,7 +53,7 @@ function tiles(run: Run): HTMLElement | null {
     const compliance = end.numbers('compliance_t_mm_per_MPa');
     const i = compliance.indexOf(Math.min(...compliance));
     facts.push([`${nameOf(run, test).replace(/ \(.*/, '')} modulus`, formatNumber(Number((end.numbers('modulus_MPa')[i]! / 1000).toPrecision(3))),
-      `GPa at ${percent(end.numbers('compaction')[i]!)}, ${compliance[i] === 0 ? 'perfect bond' : `1/Dₜ ${compliance[i]} mm/MPa`}`]);
+      `GPa at ${stateName(run, end.numbers('compaction')[i]!)}, ${compliance[i] === 0 ? 'perfect bond' : `1/Dₜ ${compliance[i]} mm/MPa`}`]);
   }
   return facts.length === 0 ? null : el('dl', {class: 'tiles'}, ...facts.map(([name, value, unit]) =>
     el('div', {class: 'tile'}, el('dt', {}, name), el('dd', {}, el('b', {}, value), ' ', el('span', {}, unit)))));
@@ -52,7 +66,7 @@ function header(run: Run, film: {strands: number}): HTMLElement {
   const most = c.compactions[c.compactions.length - 1] ?? 0;
   const words = [
     run.mat ? `A mat of ${strands} strands in ${rows} rows, ${Number(run.mat.length_mm.toFixed(3))} mm long` : 'A mat that is not formed yet',
-    most > 0 ? `pressed to ${percent(most)} at ${c.speed_m_s} m/s` : 'as laid',
+    most > 0 ? `pressed to ${fullStateName(run, most)} at ${c.speed_m_s} m/s` : 'as laid',
   ];
   return el('header', {class: 'page-head'},
     el('div', {}, el('p', {class: 'brand'}, 'Strandlab'), el('h1', {}, title(run)), el('p', {class: 'lead'}, `${words.join(', ')}.`)),
@@ -152,12 +166,12 @@ function modulusCharts(run: Run): Chart[] {
     const yLabel = 'modulus, MPa';
     return [
       new Chart({
-        id: `${fileName(test)}-compliance`, title: `${title} and glue`, note: 'One line per compaction; dashed: closed-form models.',
+        id: `${fileName(test)}-compliance`, title: `${title} and glue`, note: 'One line per kept state; dashed: closed-form models.',
         xLabel: 'glue compliance 1/Dₜ, mm/MPa', yLabel,
         series: [
           ...compactions.map((value, i): Series => {
             const line = rows.where('compaction', value);
-            return {name: percent(Number(value)), x: line.numbers('compliance_t_mm_per_MPa'), y: line.numbers('modulus_MPa'), style: 'marked',
+            return {name: stateName(run, Number(value)), x: line.numbers('compliance_t_mm_per_MPa'), y: line.numbers('modulus_MPa'), style: 'marked',
                     family: [i, compactions.length]};
           }),
           ...theorySeries(theory, row => row.numbers('compliance_t_mm_per_MPa'), 'compaction'),
@@ -185,11 +199,11 @@ function profileChart(run: Run): Chart[] {
   if (!profile) return [];
   const compactions = profile.distinct('compaction');
   return [new Chart({
-    id: 'profile', title: 'Density profile', note: 'Voids included; one line per compaction.', xLabel: 'density, kg/m³',
+    id: 'profile', title: 'Density profile', note: 'Voids included; one line per kept state.', xLabel: 'density, kg/m³',
     yLabel: 'relative height',
     series: compactions.map((value, i): Series => {
       const state = profile.where('compaction', value);
-      return {name: percent(Number(value)), x: state.numbers('density_kg_m3'), y: state.numbers('relative_height'),
+      return {name: stateName(run, Number(value)), x: state.numbers('density_kg_m3'), y: state.numbers('relative_height'),
               family: [i, compactions.length]};
     }),
     table: profile, y: {min: 0, max: 1}, item: true,
@@ -235,12 +249,12 @@ function histogramCharts(run: Run): Chart[] {
       const state = rows.where('compaction', value);
       const x = state.numbers('to').map(v => v * factor), y = state.numbers('fraction').map(v => 100 * v);
       const shown = x.flatMap((v, k) => (v >= low - 1e-9 && v <= high + 1e-9 ? [k] : []));
-      return {name: percent(Number(value)), x: shown.map(k => x[k]!), y: shown.map(k => y[k]!), style: 'steps', family: [i, compactions.length]};
+      return {name: stateName(run, Number(value)), x: shown.map(k => x[k]!), y: shown.map(k => y[k]!), style: 'steps', family: [i, compactions.length]};
     });
     // A mat as laid is one bar that would dwarf the rest.
     const rest = series.filter(s => s.y.filter(v => v > 0).length > 1);
     return new Chart({
-      id: `histogram-${fileName(quantity)}`, title, note: 'Share of the wood in each bin, one line per compaction.', xLabel,
+      id: `histogram-${fileName(quantity)}`, title, note: 'Share of the wood in each bin, one line per kept state.', xLabel,
       yLabel: 'share of the wood, %', series: rest.length > 0 ? rest : series, table: rows,
       summary: `Histogram of ${xLabel}, one line per compaction.`, x: {min: low, max: high}, y: {min: 0},
     });
@@ -263,13 +277,14 @@ function caseFacts(run: Run): HTMLElement {
     ...c.materials.map(m => facts(`Material: ${m.name}`, [
       ['Density', `${m.density_kg_m3} kg/m³`],
       ['Moduli E_L, E_R, E_T', `${m.E_L_MPa}, ${m.E_R_MPa}, ${m.E_T_MPa} MPa`],
+      ['Law of yielding', m.law === 'crushing' ? 'crushing: cells collapse' : 'Hill: volume is kept'],
       ['Yield across the grain Y_R', `${m.Y_R_MPa} MPa`],
-      ['Hardening K', `${m.hardening_K_MPa} MPa`],
+      ...(m.hardening_K_MPa === undefined ? [] : [['Hardening K', `${m.hardening_K_MPa} MPa`] as [string, string]]),
     ])),
     facts('Press', [
       ['Closing speed', `${c.speed_m_s} m/s`],
       ['Friction between strands', String(c.friction)],
-      ['States kept at', c.compactions.map(percent).join(', ')],
+      ['States kept at', c.compactions.map(value => fullStateName(run, value)).join(', ')],
     ]),
     facts('Glue', [
       ['Shear compliance 1/Dₜ', `${glue} mm/MPa`],

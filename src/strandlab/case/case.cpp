@@ -16,6 +16,8 @@
 namespace strandlab::cases {
 namespace {
 
+constexpr double kStates = 1e4;  // states are told apart in steps of compaction of 1/kStates
+
 std::vector<std::string> kind_names(const Case& c) {
   std::vector<std::string> names;
   for (const auto& kind : c.kinds) names.push_back(kind.name);
@@ -78,7 +80,7 @@ void refuse_too_short(const Case& c, const Panel<2>& panel) {
   if (panel.length_mm >= needed * (1 - 1e-9)) return;  // up to round-off
   throw InputError(
       fmt::format("{}: test.kinds: 3- and 4-point bending at a span of {:g} thicknesses need a mat {:.0f} mm long at "
-                  "compaction {} ({:.2f} mm thick); {} {:g}. Lengthen the mat, or begin press.compactions later",
+                  "compaction {} ({:.2f} mm thick); {} {:g}. Lengthen the mat, or begin with a denser state",
                   c.name, c.test.span_to_thickness, std::ceil(needed), compaction, thickness,
                   c.mat_file.empty() ? "mat.length_mm is" : "the length_mm of the mat file is", panel.length_mm));
 }
@@ -86,6 +88,9 @@ void refuse_too_short(const Case& c, const Panel<2>& panel) {
 }  // namespace
 
 Case::Case() : kinds{{"surface", "poplar", 0, {150, 20, 15, 4.95}}, {"core", "poplar", 90, {25, 3, 10, 1}}} {
+  kinds[0].yield_factor = 0.5;  // hot faces and a warm core, until the heat itself drives the press
+  kinds[1].yield_factor = 0.75;
+  schedule.compactions.clear();
   test.compliance_t_mm_per_MPa = {0, 0.0021, 0.0105, 0.0163, 0.05};
   grid.cell_aspect = 1.5;  // the cheapest that changes no modulus by 1 % (docs/performance.md, resolution)
 }
@@ -136,6 +141,34 @@ mat::Mat make_mat(const Case& c) {
 
 Weight weigh(const Case& c, const mat::Mat& mat) {
   return strandlab::weigh(mat, kinds_and_materials(c));
+}
+
+double density_kg_m3(const Case& c, const mat::Mat& mat, double compaction) {
+  return weigh(c, mat).kg_per_m2 / (1e-3 * mat.thickness_mm() * (1 - compaction));
+}
+
+void settle_states(Case& c, const mat::Mat& mat) {
+  auto& compactions = c.schedule.compactions;
+  compactions = c.states.compactions;
+  if (!compactions.empty()) return;
+  const bool by_density = c.states.thicknesses_mm.empty();
+  const auto& asked = by_density ? c.states.densities_kg_m3 : c.states.thicknesses_mm;
+  const double formed = by_density ? density_kg_m3(c, mat, 0) : mat.thickness_mm();
+  const auto* unit = by_density ? "kg/m3" : "mm";
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const auto fail = [&](const std::string& reason) {
+      throw InputError(fmt::format("{}: entry {}, {:g} {}, {}", c.places.states.empty() ? c.name : c.places.states,
+                                   i + 1, asked[i], unit, reason));
+    };
+    const double compaction =
+        std::round(kStates * (1 - (by_density ? formed / asked[i] : asked[i] / formed))) / kStates;
+    if (compaction < 0)
+      fail(fmt::format("is {} the mat as formed, which has {:.4g} {}", by_density ? "below" : "above", formed, unit));
+    if (compaction >= 1) fail("leaves nothing of the mat");
+    if (!compactions.empty() && compaction <= compactions.back())
+      fail(fmt::format("is the same state as the entry before: both are compaction {}", compaction));
+    compactions.push_back(compaction + 0.0);  // no -0
+  }
 }
 
 std::vector<std::string> derived_constants(const Case& c) {

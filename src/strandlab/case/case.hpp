@@ -24,7 +24,7 @@ struct KindSettings {
   double angle_spread_deg = 0;                    // each strand's angle is uniform within angle_deg +- this
   double thickness_mm = 0;                        // 0: layer_thickness_mm of the case
   double yield_factor = 1, stiffness_factor = 1;  // softening in the press, StrandKind
-  wood::Law law = wood::Law::kHill;
+  wood::Law law = wood::Law::kCrushing;
 };
 
 // [materials.NAME]: a user's material, a built-in one with some constants changed.
@@ -34,15 +34,22 @@ struct MaterialSettings {
   wood::Material material;
 };
 
+// States at which the panel is kept, by one of three measures; the lists of the other two are empty.
+struct KeptStates {
+  std::vector<double> compactions;                          // increasing, < 1
+  std::vector<double> densities_kg_m3{400, 480, 560, 640};  // increasing
+  std::vector<double> thicknesses_mm;                       // decreasing
+};
+
 // Where a case says what only its use can judge, as messages open: "panel.toml:12: mat.file = \"x.json\"". Empty for
 // a case that was not read.
 struct CasePlaces {
-  std::string rows, mat_file, bondline_file;
+  std::string rows, mat_file, bondline_file, states;
 };
 
 inline constexpr int kPointsPerCell = 2;  // material points per cell and axis, as press::Resolution has it
 
-// The defaults are the main job: an OSB mat of 20 rows pressed to 40 %.
+// The defaults are the main job: an OSB mat of 20 rows pressed to 640 kg/m3.
 struct Case {
   Case();
 
@@ -56,7 +63,8 @@ struct Case {
   std::vector<MaterialSettings> materials;
   std::vector<ResinSettings> resins;
   HotPressSettings hotpress;
-  press::Schedule schedule;
+  KeptStates states;
+  press::Schedule schedule;  // its compactions are those of settle_states()
   mpm::Side sides = mpm::Side::kRoller;
   press::Resolution grid;
   mpm::Options mpm;  // its thread count is set from `threads` when a run starts
@@ -93,6 +101,12 @@ std::vector<StrandKind> kinds_and_materials(const Case& c);
 mat::Mat make_mat(const Case& c);
 // Its weight and what it is made of.
 Weight weigh(const Case& c, const mat::Mat& mat);
+// Density of its panel of area at a compaction, voids included, kg/m^3.
+double density_kg_m3(const Case& c, const mat::Mat& mat, double compaction);
+// Makes c.schedule.compactions those at which the mat has the case's states: as given, or to 1e-4 those of its
+// densities or thicknesses. Throws InputError for a state that the mat is beyond as formed, and for two states that
+// round to one compaction.
+void settle_states(Case& c, const mat::Mat& mat);
 // One line for each of the case's materials whose constants follow from a species' ratios: which, from what, and where
 // the ratios are from; or of which only E_L was changed: which constants did not follow it.
 std::vector<std::string> derived_constants(const Case& c);

@@ -23,6 +23,7 @@ const Range kSizeOrZero{.lo = mat::kSmallestSize_mm, .hi = mat::kLargestSize_mm,
 const Range kGap{.lo = 0, .hi = mat::kLargestSize_mm};
 const Range kSoftening{.lo = 0, .hi = 1, .lo_open = true};
 const Range kPositiveOrInfinite{.lo = 0, .lo_open = true, .infinite = true};
+constexpr double kDensest_kg_m3 = 1500;  // wood without pores
 
 // Between the members of Case and the value types of TOML.
 Value to_value(bool v) {
@@ -251,7 +252,10 @@ void add_kind_keys(std::vector<Key>& t) {
       "gap_sd_mm", "mm", kNotNegative, "its standard deviation, at most the mean",
       [](auto& k) -> auto& { return k.statistics.gap_sd_mm; }));
   t.push_back(kind_key(
-      "yield_factor", "", kSoftening, "softening in the hot press: yield stresses and hardening_K over the material's",
+      "yield_factor", "", kSoftening,
+      "softening by heat and moisture: yield stresses and hardening_K over the material's; the pressing is cold and "
+      "does "
+      "not find it by itself",
       [](auto& k) -> auto& { return k.yield_factor; }));
   t.push_back(kind_key(
       "stiffness_factor", "", kSoftening,
@@ -327,13 +331,21 @@ void add_material_keys(std::vector<Key>& t) {
 void add_press_keys(std::vector<Key>& t) {
   t.push_back(key(
       "press.speed_m_s", "m/s", {.lo = 0, .hi = 1000, .lo_open = true},
-      "closing speed of the platens; up to 16 (1 with the crushing law) panels from 20 % compaction on do not depend "
-      "on it",
+      "closing speed of the platens; up to 16 panels from 20 % compaction on do not depend on it",
       [](auto& c) -> auto& { return c.schedule.speed_m_s; }));
   t.push_back(key(
+      "press.densities_kg_m3", "kg/m3",
+      {.lo = 0, .hi = kDensest_kg_m3, .lo_open = true, .hi_open = true, .increasing = true},
+      "densities of the panel at which it is kept, solved for the weight of each mat; this key or one of the next two",
+      [](auto& c) -> auto& { return c.states.densities_kg_m3; }));
+  t.push_back(key(
+      "press.thicknesses_mm", "mm", {.lo = 0, .lo_open = true, .decreasing = true},
+      "thicknesses of the panel at which it is kept, in place of densities",
+      [](auto& c) -> auto& { return c.states.thicknesses_mm; }));
+  t.push_back(key(
       "press.compactions", "", {.lo = 0, .hi = 1, .hi_open = true, .increasing = true},
-      "compactions (1 - thickness/initial thickness) at which the panel is kept",
-      [](auto& c) -> auto& { return c.schedule.compactions; }));
+      "compactions (1 - thickness/initial thickness) at which the panel is kept, in place of densities",
+      [](auto& c) -> auto& { return c.states.compactions; }));
   t.push_back(with_choices(key(
                                "press.sides", "", kAny, "vertical sides of the mat: on rollers (symmetry) or free",
                                [](auto& c) -> auto& { return c.sides; }),
@@ -579,6 +591,7 @@ std::string describe(const Range& r) {
   }
   if (r.infinite) text += " (inf: never)";
   if (r.increasing) text += ", increasing";
+  if (r.decreasing) text += ", decreasing";
   return text;
 }
 

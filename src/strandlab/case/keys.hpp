@@ -21,6 +21,7 @@ struct Range {
   bool infinite = false;                  // `inf` is accepted
   bool zero = false;                      // 0 is accepted too, below lo
   bool increasing = false;                // lists: each entry greater than the one before
+  bool decreasing = false;                // lists: each entry less than the one before
 };
 
 struct Key {
@@ -31,6 +32,7 @@ struct Key {
   std::function<std::vector<std::string>(const Case&)> choices;  // of texts; empty: any text
   bool names_file = false;                                       // a text: relative ones count from the case file
   bool changes_results = true;  // false: runs that differ in this key alone give the same bits
+  // An empty list stands for a key that is not given, and is not written.
   // `name` is what stands for the * of the path, "" where there is none. set() expects a value that passed the checks.
   std::function<Value(const Case&, const std::string& name)> get;
   std::function<void(Case&, const std::string& name, const Value&)> set;

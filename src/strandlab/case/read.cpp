@@ -31,6 +31,7 @@ struct Given {
   Path path;
   const toml::node* node = nullptr;
   std::string where;  // opens messages: "panel.toml:12", "--set press.speed_m_s=..."
+  bool in_file = false;
 };
 
 struct Source {
@@ -230,7 +231,7 @@ std::string nearest_key(const Path& path, const std::vector<std::string>& same_s
 
 void flatten(const Source& source, const toml::table& table, const Path& prefix, std::vector<Given>& out) {
   for (auto&& [key, node] : table) {
-    Given given{prefix, &node, source.name};
+    Given given{prefix, &node, source.name, source.has_lines};
     given.path.emplace_back(key.str());
     if (source.has_lines) given.where += fmt::format(":{}", node.source().begin.line);
     const bool known = find_key(given.path) != nullptr;
@@ -240,7 +241,7 @@ void flatten(const Source& source, const toml::table& table, const Path& prefix,
       continue;
     }
     if (!is_section(given.path)) throw_unknown_section(given);
-    out.push_back({given.path, nullptr, given.where});
+    out.push_back({given.path, nullptr, given.where, given.in_file});
     flatten(source, *node.as_table(), given.path, out);
   }
 }
@@ -338,6 +339,11 @@ bool empty_list(const Value& value) {
   return (numbers && numbers->empty()) || (texts && texts->empty());
 }
 
+// 40 for 40 %, or 0,4 taken apart at its comma, where a fraction is meant: ends the sentence.
+std::string fraction_hint(const Range& range, Exact v) {
+  return range.hi == 1 && v > 1 && v <= 100 ? "; it is a fraction with a decimal point, as 0.4 for 40 %" : "";
+}
+
 // Points at an entry of a list, 1 the first: "entry 2, nan, "; nothing for a value that is no list.
 std::string entry(const toml::node& node, std::size_t index) {
   const auto* list = node.as_array();
@@ -350,15 +356,16 @@ void check_numbers(const Range& range, const std::string& rule, const Value& val
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (inside(range, numbers[i])) continue;
     const bool never = std::isinf(numbers[i]) && !range.infinite && !rule.empty();
-    throw InputError(fmt::format("{}: {}must be {}{}", opening, entry(node, i), never ? "a finite number, " : "",
-                                 rule.empty() ? "a finite number" : rule));
+    throw InputError(fmt::format("{}: {}must be {}{}{}", opening, entry(node, i), never ? "a finite number, " : "",
+                                 rule.empty() ? "a finite number" : rule, fraction_hint(range, numbers[i])));
   }
-  if (!range.increasing) return;
-  const auto stop = std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>());
+  if (!range.increasing && !range.decreasing) return;
+  const auto stop = range.increasing ? std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>())
+                                     : std::adjacent_find(numbers.begin(), numbers.end(), std::less_equal<>());
   if (stop == numbers.end()) return;
   const auto i = static_cast<std::size_t>(stop - numbers.begin());
-  throw InputError(
-      fmt::format("{}: {}is not above {}but the list must be {}", opening, entry(node, i + 1), entry(node, i), rule));
+  throw InputError(fmt::format("{}: {}is not {} {}but the list must be {}", opening, entry(node, i + 1),
+                               range.increasing ? "above" : "below", entry(node, i), rule));
 }
 
 void check_value(const Key& key, const Case& c, const Value& value, const toml::node& node,
@@ -507,6 +514,35 @@ void check_kind(const KindSettings& kind, const std::vector<Given>& given, const
   }
 }
 
+// The measure of the states that counts: one given by --set takes the place of the file's, that of the default's.
+// Throws InputError for two beside each other.
+void choose_states(Case& c, const std::vector<Given>& given, const std::string& source) {
+  const std::vector<std::pair<const char*, std::vector<double>*>> measures{
+      {"densities_kg_m3", &c.states.densities_kg_m3},
+      {"thicknesses_mm", &c.states.thicknesses_mm},
+      {"compactions", &c.states.compactions}};
+  const Given* chosen = nullptr;
+  for (const bool in_file : {false, true}) {
+    if (chosen) break;
+    for (const auto& g : given) {
+      const bool measure = g.path[0] == "press" && std::any_of(measures.begin(), measures.end(),
+                                                               [&](const auto& m) { return g.path.back() == m.first; });
+      if (!measure || g.in_file != in_file) continue;
+      if (chosen && chosen->path != g.path)
+        throw InputError(
+            fmt::format("{}: {} and {} ({}) contradict each other; give one of press.densities_kg_m3, "
+                        "press.thicknesses_mm and press.compactions",
+                        g.where, name_of(g.path), name_of(chosen->path), chosen->where));
+      chosen = &g;
+    }
+  }
+  const auto name = chosen ? chosen->path.back() : "densities_kg_m3";
+  for (const auto& [key, list] : measures) {
+    if (key != name) list->clear();
+  }
+  c.places.states = chosen ? opening_of(*chosen, *find_key(chosen->path)) : source + ": press.densities_kg_m3";
+}
+
 // A kind that no row is of is most likely the misspelt name of another, whose keys would have no effect.
 void refuse_unused_kinds(const Case& c, const mat::Layup& layup, const std::vector<Given>& given,
                          const std::string& source) {
@@ -618,6 +654,7 @@ Case case_from_sources(Case c, const std::vector<Source>& sources) {
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
   for (const auto& g : ordered) apply(c, g);
+  choose_states(c, given, sources.front().name);
   make_absolute(c.mat_file, mat_folder);
   make_absolute(c.bondline_file, bondline_folder);
   make_absolute(c.hotpress.log_file, log_folder);

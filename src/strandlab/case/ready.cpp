@@ -11,9 +11,7 @@
 namespace strandlab::cases {
 namespace {
 
-constexpr const char* kFullRows =
-    "[kinds.surface]\nlength_mm = 0\nlength_sd_mm = 0\ngap_mm = 0\ngap_sd_mm = 0\n"
-    "[kinds.core]\nlength_mm = 0\nlength_sd_mm = 0\ngap_mm = 0\ngap_sd_mm = 0\n";
+constexpr const char* kFullRow = "length_mm = 0\nlength_sd_mm = 0\ngap_mm = 0\ngap_sd_mm = 0\n";
 
 struct Ready {
   std::string name;
@@ -22,51 +20,84 @@ struct Ready {
 };
 
 // VTC strands are 25 mm shorter than normal ones.
-constexpr const char* kVtcSurface = "[kinds.surface]\nmaterial = \"vtc\"\nlength_mm = 125\n";
+constexpr const char* kVtcSurface = "material = \"vtc\"\nlength_mm = 125\n";
+
+// The panels of Le (2010), with keys of [mat], [kinds.surface] and [kinds.core] of their own: pressed cold by Hill's
+// law through even compactions.
+Ready le2010(const std::string& name, const std::string& title, const std::string& mat, const std::string& surface = "",
+             const std::string& core = "") {
+  return {name, title,
+          fmt::format("[mat]\n{}\n[kinds.surface]\nlaw = \"hill\"\nyield_factor = 1\n{}\n[kinds.core]\nlaw = "
+                      "\"hill\"\nyield_factor = 1\n{}\n[press]\ncompactions = [0, 0.1, 0.2, 0.3, 0.4]\n",
+                      mat, surface, core)};
+}
 
 // Panels of the experiments of Rathi (2009) as Le (2010), 3.6.4.2 models them: surface rows over a core of strands at
 // any angle. Core rows keep the lengths and gaps that the core of the OSB case has in the section, whatever their
 // angle.
-Ready rathi(const std::string& name, const std::string& title, int surface, int core, const std::string& changes) {
-  return {name,
-          title +
-              "\nCore strands lie at any angle. Le (2010), section 3.6.4.2, after Rathi (2009). Core rows keep the "
-              "lengths and gaps\nof the OSB case's core in the section, whatever the angles (docs/layups.md).",
-          fmt::format("[mat]\nrows = [\"surface*{0}\", \"core*{1}\", \"surface*{0}\"]\n"
-                      "[kinds.core]\nangle_deg = 0\nangle_spread_deg = 90\n{2}",
-                      surface, core, changes)};
+Ready rathi(const std::string& name, const std::string& title, int surface, int core, const std::string& strands) {
+  return le2010(
+      name,
+      title +
+          "\nCore strands lie at any angle. Le (2010), section 3.6.4.2, after Rathi (2009). Core rows keep the "
+          "lengths and gaps\nof the OSB case's core in the section, whatever the angles (docs/layups.md).",
+      fmt::format("rows = [\"surface*{0}\", \"core*{1}\", \"surface*{0}\"]", surface, core), strands,
+      "angle_deg = 0\nangle_spread_deg = 90\n");
 }
 
 Ready chapter5(int length, int gap) {
-  return {fmt::format("osb_length{}_gap{}", length, gap),
-          fmt::format("OSB with surface strands of {} +- 20 mm and gaps of {} +- 4.95 mm between them.\n"
-                      "One of the four cases of Le (2010), chapter 5, on strand length and gaps.",
-                      length, gap),
-          fmt::format("[kinds.surface]\nlength_mm = {}\ngap_mm = {}\n", length, gap)};
+  return le2010(fmt::format("osb_length{}_gap{}", length, gap),
+                fmt::format("OSB with surface strands of {} +- 20 mm and gaps of {} +- 4.95 mm between them.\n"
+                            "One of the four cases of Le (2010), chapter 5, on strand length and gaps.",
+                            length, gap),
+                "", fmt::format("length_mm = {}\ngap_mm = {}\n", length, gap));
+}
+
+constexpr const char* kAlong = "rows = [\"surface*20\"]\n";
+
+// Of the panels as a mill presses them.
+std::string pressed(const std::string& what) {
+  return what +
+         "\nThe press is cold: softened faces and core (kinds.NAME.yield_factor) stand in for heat and moisture, which "
+         "make\ndense faces over a light core (docs/crushing.md, \"Softened faces\").";
+}
+
+// Of their counterparts in the dissertation.
+std::string published(const std::string& what) {
+  return what +
+         "\nAs Le (2010) presses it, by Hill's law to 40 %, to compare with the dissertation: pressures at the end are "
+         "far beyond\nthose of a press (docs/crushing.md).";
 }
 
 const std::vector<Ready>& table() {
   static const std::vector<Ready> list{
       {"osb",
-       "Oriented strand board: 20 rows of hybrid poplar, pressed to 40 % and tested with five qualities of glue.", ""},
+       pressed("Oriented strand board: 20 rows of hybrid poplar, pressed to 640 kg/m3 and tested with five qualities "
+               "of glue."),
+       ""},
       {"hot_osb",
-       "Three-layer OSB of 12 mm and 640 kg/m3 for the hot press: strands that crush, PF in the faces, pMDI in the "
-       "core.\n"
+       "Three-layer OSB of 12 mm and 640 kg/m3 for the hot press: PF in the faces, pMDI in the core.\n"
        "`strandlab hotpress` presses it as a column (docs/hotpress.md): how long to press, at what pressure, with "
        "what\n"
-       "density profile. `strandlab run` still presses it cold.",
-       "[mat]\nrows = [\"surface*8\", \"core*18\", \"surface*8\"]\n[kinds.surface]\nlaw = \"crushing\"\n"
-       "[kinds.core]\nlaw = \"crushing\"\n[press]\nspeed_m_s = 4\n"
+       "density profile. `strandlab run` still presses it cold, with softened faces and core in place of heat.",
+       "[mat]\nrows = [\"surface*8\", \"core*18\", \"surface*8\"]\n"
        "[hotpress]\nschedule = [\"close to 640 kg/m3 in 25 s\", \"hold until 180 s\", \"vent 15 s\", \"open 60 s\"]\n"},
-      {"osl", "Oriented strand lumber: all 20 rows along the panel.", "[mat]\nrows = [\"surface*20\"]\n"},
-      {"plywood", "Plywood: the rows of the OSB case without gaps.", kFullRows},
-      {"lvl", "Laminated veneer lumber: 20 rows along the panel without gaps.",
-       fmt::format("[mat]\nrows = [\"surface*20\"]\n{}", kFullRows)},
-      {"osb_vtc50",
-       "OSB with densified surfaces: all surface rows, half of the volume, are VTC strands as long as the normal "
-       "ones.\n"
-       "Le (2010), section 3.6.4.1.",
-       "[kinds.surface]\nmaterial = \"vtc\"\n"},
+      {"osl", pressed("Oriented strand lumber: 20 rows of strands along the panel, pressed to 640 kg/m3."),
+       fmt::format("[mat]\n{}", kAlong)},
+      {"plywood", pressed("Plywood: the rows of the OSB case without gaps, pressed to 640 kg/m3."),
+       fmt::format("[kinds.surface]\n{0}[kinds.core]\n{0}", kFullRow)},
+      {"lvl", pressed("Laminated veneer lumber: 20 rows along the panel without gaps, pressed to 640 kg/m3."),
+       fmt::format("[mat]\n{0}[kinds.surface]\n{1}[kinds.core]\n{1}", kAlong, kFullRow)},
+      le2010("le2010_osb", published("Oriented strand board: 20 rows of hybrid poplar."), ""),
+      le2010("le2010_osl", published("Oriented strand lumber: all 20 rows along the panel."), kAlong),
+      le2010("le2010_plywood", published("Plywood: the rows of the OSB case without gaps."), "", kFullRow, kFullRow),
+      le2010("le2010_lvl", published("Laminated veneer lumber: 20 rows along the panel without gaps."), kAlong,
+             kFullRow, kFullRow),
+      le2010("osb_vtc50",
+             "OSB with densified surfaces: all surface rows, half of the volume, are VTC strands as long as the normal "
+             "ones.\n"
+             "Le (2010), section 3.6.4.1.",
+             "", "material = \"vtc\"\n"),
       rathi("rathi20_control", "Control of the panel with 20 % VTC: two surface rows of normal strands on either side.",
             2, 16, ""),
       rathi("rathi20_vtc",

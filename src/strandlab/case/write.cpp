@@ -54,6 +54,11 @@ std::string example_material() {
   return text + "\n";
 }
 
+bool is_given(const Value& value) {
+  const auto* list = std::get_if<std::vector<double>>(&value);
+  return !list || !list->empty();
+}
+
 Step step_of(const std::string& section) {
   if (section == "press" || section == "grid") return Step::kPress;
   return section == "glue" || section == "test" ? Step::kTest : Step::kMat;
@@ -66,9 +71,14 @@ std::string default_text(const Key& key, const Case& defaults) {
     if (name_of(key) == "base") return "\"poplar\"";
     return name_of(key) == "species" ? "\"\"" : "that of the base";
   }
-  if (section != "kinds.*") return to_toml(key.get(defaults, section == "resins.*" ? "NAME" : ""));
+  if (section != "kinds.*") {
+    const auto value = key.get(defaults, section == "resins.*" ? "NAME" : "");
+    return is_given(value) ? to_toml(value) : "not given";
+  }
   const auto surface = to_toml(key.get(defaults, "surface")), core = to_toml(key.get(defaults, "core"));
-  return surface == core ? surface : fmt::format("{}; core {}", surface, core);
+  const auto other = to_toml(key.get(defaults, "NAME"));
+  if (surface == other) return surface == core ? surface : fmt::format("{}; core {}", surface, core);
+  return fmt::format("{}; surface {}; core {}", other, surface, core);
 }
 
 // A | would end the table cell.
@@ -93,8 +103,10 @@ std::string resolved_text(const Case& c) {
   for (const auto& section : sections()) {
     for (const auto& name : instances(c, section.path)) {
       text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", with_name(section.path, name));
-      for_each_key(section.path,
-                   [&](const Key& key) { text += fmt::format("{} = {}\n", name_of(key), to_toml(key.get(c, name))); });
+      for_each_key(section.path, [&](const Key& key) {
+        const auto value = key.get(c, name);
+        if (is_given(value)) text += fmt::format("{} = {}\n", name_of(key), to_toml(value));
+      });
     }
   }
   return text;
@@ -110,7 +122,9 @@ std::string commented_text(const Case& c, const std::string& title) {
     for (const auto& name : names) {
       text += fmt::format("[{}]  # {}\n", with_name(section.path, name), section.help);
       for_each_key(section.path, [&](const Key& key) {
-        text += fmt::format("{} = {}  # {}\n", name_of(key), to_toml(key.get(c, name)), comment(key, c));
+        const auto value = key.get(c, name);
+        text += fmt::format("{}{} = {}  # {}\n", is_given(value) ? "" : "# ", name_of(key), to_toml(value),
+                            comment(key, c));
       });
       text += "\n";
     }
@@ -122,6 +136,7 @@ std::string commented_text(const Case& c, const std::string& title) {
 std::string reference_text() {
   Case defaults;
   defaults.resins.push_back({"NAME"});
+  defaults.kinds.emplace_back().name = "NAME";
   std::string text =
       "# Keys of a case file\n\nPrinted by `strandlab init --reference`. A case file is TOML; any key may be left out, "
       "and any key can be\n"
@@ -151,7 +166,8 @@ std::vector<std::string> identity(const Case& c, Step last) {
     const auto section = section_of(key);
     if (!key.changes_results || step_of(section) > last) continue;
     for (const auto& name : instances(c, section)) {
-      lines.push_back(fmt::format("{} = {}", with_name(key.path, name), to_toml(key.get(c, name))));
+      const auto value = key.get(c, name);
+      if (is_given(value)) lines.push_back(fmt::format("{} = {}", with_name(key.path, name), to_toml(value)));
     }
   }
   return lines;

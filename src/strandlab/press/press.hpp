@@ -11,11 +11,11 @@
 
 namespace strandlab::press {
 
-// Limits beyond which a pressing is warned of. Judgement; how moduli differ between speeds on either side of them is in
-// docs/user-guide.md, "Resolution and speed".
+// Limits beyond which a pressing is warned of. Judgement; what moduli and stress lose on either side of them is in
+// docs/user-guide.md, "The speed of the press".
 inline constexpr double kJudgedFrom = 0.05;    // compaction from which inertia is judged; before, gaps close unloaded
-inline constexpr double kKineticLimit = 0.05;  // energy of the strands' mean motion over internal energy
-inline constexpr double kForceLimit = 0.10;    // difference of the platens' forces over their mean
+inline constexpr double kKineticLimit = 0.10;  // energy of the strands' mean motion over internal energy
+inline constexpr double kForceLimit = 0.30;    // difference of the platens' forces over their mean
 inline constexpr double kBalanceLimit = 0.01;  // error of the energy balance over the platens' work
 
 struct Schedule {
@@ -25,6 +25,10 @@ struct Schedule {
   std::vector<double> compactions{0, 0.1, 0.2, 0.3, 0.4};  // increasing, < 1: the state is kept at each
   double record_interval_compaction = 0.001;
 };
+
+// Compaction from which a pressing's inertia is judged: that of the first state kept of the pressed mat, if not below
+// kJudgedFrom. What the strands do before it leaves no trace in the states.
+double judged_from(const Schedule& schedule);
 
 // One line of press.csv. Stresses are compression positive, energies are totals since the start.
 struct Record {

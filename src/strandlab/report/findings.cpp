@@ -23,19 +23,33 @@ std::string rounded(double share) {
   return fmt::format("{:g} %", std::round(1000 * share) / 10 + 0.0);
 }
 
-Finding about_inertia(const std::vector<press::Record>& records) {
+// Where the strands' motion last held more of the energy than the limit; 0: nowhere.
+double moved_until(const std::vector<press::Record>& records) {
+  double last = 0;
+  for (const auto& r : records) {
+    if (r.kinetic_mJ > press::kKineticLimit * r.internal_mJ()) last = r.compaction;
+  }
+  return last;
+}
+
+Finding about_inertia(const std::vector<press::Record>& records, double judged_from) {
   double worst = 0;
   for (const auto& r : records) {
-    if (r.compaction > press::kJudgedFrom && r.internal_mJ() > 0)
-      worst = std::max(worst, r.kinetic_mJ / r.internal_mJ());
+    if (r.compaction >= judged_from && r.internal_mJ() > 0) worst = std::max(worst, r.kinetic_mJ / r.internal_mJ());
   }
   if (worst == 0)
     return {Level::kGood, fmt::format("The pressing ended before {} compaction, where inertia is first judged.",
-                                      rounded(press::kJudgedFrom))};
-  return {Level::kGood, fmt::format("The press was slow enough: beyond {} compaction the motion of the wood never held "
-                                    "more than {} of the energy stored and dissipated in it (limit for the strands' "
-                                    "own motion {}), and both platens felt the same force within the limit.",
-                                    rounded(press::kJudgedFrom), percent(worst), rounded(press::kKineticLimit))};
+                                      rounded(judged_from))};
+  const double early = moved_until(records);
+  const auto before =
+      early > 0 && early < judged_from
+          ? fmt::format(" Up to {} it held more: read the pressing stress from there on.", rounded(early))
+          : "";
+  return {Level::kGood,
+          fmt::format("The press was slow enough: from {} compaction on the motion of the wood never held more than {} "
+                      "of the energy stored and dissipated in it (limit for the strands' own motion {}), and both "
+                      "platens felt the same force within the limit.{}",
+                      rounded(judged_from), percent(worst), rounded(press::kKineticLimit), before)};
 }
 
 Finding about_balance(const press::Record& end) {
@@ -85,17 +99,32 @@ std::vector<Finding> shared_warnings(const std::vector<TestedState>& states) {
 
 }  // namespace
 
-std::vector<Finding> pressing_findings(const std::vector<press::Record>& records,
+std::vector<Finding> pressing_findings(const std::vector<press::Record>& records, double judged_from,
                                        const std::vector<std::string>& warnings) {
   if (records.empty() || !(records.back().platen_work_mJ > 0)) return {{Level::kNote, "The mat was not pressed."}};
   std::vector<Finding> list;
   list.reserve(warnings.size() + 3);
   for (const auto& warning : warnings) list.push_back({Level::kWarning, warning});
-  if (warnings.empty()) list.push_back(about_inertia(records));
+  if (warnings.empty()) list.push_back(about_inertia(records, judged_from));
   const auto balance = about_balance(records.back());
   if (warnings.empty() || balance.level != Level::kWarning) list.push_back(balance);  // the press has warned of it
   list.push_back(about_friction(records.back()));
   return list;
+}
+
+std::vector<Finding> softening_findings(const std::vector<StrandKind>& kinds) {
+  std::vector<std::string> softened;
+  for (const auto& kind : kinds) {
+    if (kind.yield_factor < 1) softened.push_back(fmt::format("{} {:g}", kind.name, kind.yield_factor));
+    if (kind.stiffness_factor < 1)
+      softened.push_back(fmt::format("{} {:g} (stiffness)", kind.name, kind.stiffness_factor));
+  }
+  if (softened.empty()) return {};
+  return {
+      {Level::kNote,
+       fmt::format("Pressed cold: softened strands stand in for the heat and moisture of a press (yield_factor of {}). "
+                   "The density profile is theirs, not yet that of a press cycle.",
+                   joined(softened))}};
 }
 
 std::vector<Finding> shape_findings(const std::vector<Morphology>& states) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "strandlab/panel/panel.hpp"
 #include "strandlab/press/press.hpp"
 #include "strandlab/report/morphology.hpp"
 #include "strandlab/vtest/vtest.hpp"
@@ -18,9 +19,13 @@ struct Finding {
   std::string text;
 };
 
-// Of a pressing: the press's own warnings, inertia, the energy balance, friction.
-std::vector<Finding> pressing_findings(const std::vector<press::Record>& records,
+// Of a pressing whose inertia is judged from a compaction on (press::judged_from()): the press's own warnings, inertia,
+// the energy balance, friction.
+std::vector<Finding> pressing_findings(const std::vector<press::Record>& records, double judged_from,
                                        const std::vector<std::string>& warnings);
+
+// That softened kinds stand in for heat; nothing where no kind is softened.
+std::vector<Finding> softening_findings(const std::vector<StrandKind>& kinds);
 
 // Of the shapes of the states kept: overlaps of strands, voids.
 std::vector<Finding> shape_findings(const std::vector<Morphology>& states);

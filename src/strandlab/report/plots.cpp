@@ -103,7 +103,8 @@ Warning plot_modulus_against_compliance(const std::vector<PanelModulus>& moduli,
   }
   Plot plot{title_of(test), "1/Dₜ, mm/MPa", "modulus, MPa", "compaction", CurveStyle::kLinesAndPoints, 0, 1, {},
             references};
-  for (const auto& [compaction, points] : curves) plot.curves.push_back(curve_of(compaction_percent(compaction / 100), points));
+  for (const auto& [compaction, points] : curves)
+    plot.curves.push_back(curve_of(compaction_percent(compaction / 100), points));
   fit_axis(plot, std::nullopt);
   return draw(plot, png);
 }

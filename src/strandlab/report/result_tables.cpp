@@ -18,10 +18,10 @@ files::CsvTable press_table(const std::vector<press::Record>& records) {
 
 files::CsvTable moduli_table(const std::vector<PanelModulus>& moduli) {
   files::CsvTable table({"compaction", "test", "compliance_t_mm_per_MPa", "modulus_MPa", "reaction_modulus_MPa",
-                         "shear_free_modulus_MPa"});
+                         "shear_free_modulus_MPa", "density_kg_m3"});
   for (const auto& m : moduli) {
     table.add_row({m.compaction, m.test, m.compliance_t_mm_per_MPa, m.modulus_MPa, m.reaction_modulus_MPa,
-                   m.shear_free_modulus_MPa.value_or(std::nan(""))});
+                   m.shear_free_modulus_MPa.value_or(std::nan("")), m.density_kg_m3});
   }
   return table;
 }

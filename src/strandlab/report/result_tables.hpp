@@ -19,6 +19,7 @@ struct PanelModulus {
   double modulus_MPa = 0;                          // from the energy
   double reaction_modulus_MPa = 0;                 // from the reaction
   std::optional<double> shear_free_modulus_MPa{};  // of 3- and 4-point bending
+  double density_kg_m3 = 0;                        // of the panel at that compaction
 };
 
 // compaction, time_ms, stress_MPa, force_top_N, force_bottom_N, kinetic_mJ, internal_mJ, plastic_mJ, elastic_mJ,
@@ -26,7 +27,7 @@ struct PanelModulus {
 files::CsvTable press_table(const std::vector<press::Record>& records);
 
 // compaction, test, compliance_t_mm_per_MPa, modulus_MPa, reaction_modulus_MPa, shear_free_modulus_MPa (nan but for 3-
-// and 4-point bending); one row per modulus.
+// and 4-point bending), density_kg_m3; one row per modulus.
 files::CsvTable moduli_table(const std::vector<PanelModulus>& moduli);
 
 // compliance_t_mm_per_MPa, strand_a, strand_b (order in the panel, from 0), x_mm, y_mm, slip_mm_per_strain; one row per

@@ -103,10 +103,20 @@ bool is_step(const Json& step) {
   return step.is_object() && (!step.contains("finished") || step["finished"].is_boolean());
 }
 
+// Older records have none.
+bool has_states(const Json& record) {
+  if (!record.contains("states")) return true;
+  const auto& states = record["states"];
+  return states.is_array() && std::all_of(states.begin(), states.end(), [](const Json& state) {
+           return state.is_object() && state.contains("compaction") && state["compaction"].is_number() &&
+                  state.contains("density_kg_m3") && state["density_kg_m3"].is_number();
+         });
+}
+
 bool is_record(const Json& record) {
   return record.is_object() && record.contains("strandlab") && record.contains("case") && record["case"].is_array() &&
          std::all_of(record["case"].begin(), record["case"].end(), [](const Json& line) { return line.is_string(); }) &&
-         record.contains("steps") && record["steps"].is_object() &&
+         has_states(record) && record.contains("steps") && record["steps"].is_object() &&
          std::all_of(record["steps"].begin(), record["steps"].end(), is_step);
 }
 
@@ -312,6 +322,18 @@ Json read_run_record(const fs::path& folder) {
   if (!fs::exists(folder / "run.json", error))
     throw InputError(fmt::format("{}: holds no strandlab run (no run.json)", folder.string()));
   return read_record(folder / "run.json");
+}
+
+cases::Case read_run_case(const fs::path& folder) {
+  auto c = cases::read_case(folder / "case.toml", {"glue.from_bondline=\"\"", "glue.group=\"\""});
+  c.schedule.compactions = c.states.compactions;
+  if (!c.schedule.compactions.empty()) return c;
+  const auto record = read_run_record(folder);
+  for (const auto& state : record.value("states", Json::array())) c.schedule.compactions.push_back(state["compaction"]);
+  if (c.schedule.compactions.empty())
+    throw InputError(
+        fmt::format("{}: has no \"states\": at which compactions the panel was kept", (folder / "run.json").string()));
+  return c;
 }
 
 void write_page(const fs::path& folder, const std::function<void()>& write) {

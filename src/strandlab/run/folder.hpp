@@ -71,6 +71,11 @@ class RunFolder {
 // run.
 nlohmann::json read_run_record(const std::filesystem::path& folder);
 
+// case.toml of a run folder with the states that were solved for its mat, as run.json has them. The bond-line result
+// it came from may have gone since: its number is in the case. Throws InputError for files that are no case and no
+// record of a run.
+cases::Case read_run_case(const std::filesystem::path& folder);
+
 // Lets `write` make the page of a run folder and records that it shows the results that are there; no run changes them
 // meanwhile. Throws InputError for a folder that holds no run, or where a run is under way; what `write` throws passes
 // through.

@@ -6,11 +6,12 @@
 
 namespace strandlab::run {
 
-Formed form(const cases::Case& c) {
+Formed form(cases::Case c) {
   auto mat = cases::make_mat(c);
+  cases::settle_states(c, mat);
   auto panel = cases::make_panel(c, mat);
   vtest::check(panel, c.test);
-  return {c, std::move(mat), std::move(panel)};
+  return {std::move(c), std::move(mat), std::move(panel)};
 }
 
 void refuse_untestable(const Formed& formed) {

@@ -21,8 +21,8 @@ using cases::Step;
 Journey start(const cases::Case& c, const Place& place, Step first, Step last, Observer& observer) {
   auto formed = form(c);
   if (last >= Step::kTest) refuse_untestable(formed);
-  const double disk_bytes = cases::estimate(c, formed.panel).disk_bytes;
-  RunFolder folder(place.folder, c, first, place.force, disk_bytes);
+  const double disk_bytes = cases::estimate(formed.c, formed.panel).disk_bytes;
+  RunFolder folder(place.folder, formed.c, first, place.force, disk_bytes);
   begin_record(folder.record(), formed);
   return {std::move(formed), std::move(folder), Log(observer)};
 }

@@ -41,19 +41,16 @@ Json read_object(const fs::path& file, const std::string& what) {
   return json;
 }
 
-// The case without the files it once came from: they may have gone since, and the folder holds what was in them.
-cases::Case read_run_case(const fs::path& folder) {
-  return cases::read_case(folder / "case.toml", {"glue.from_bondline=\"\"", "glue.group=\"\""});
-}
-
 Json describe(const wood::Material& m) {
-  return {{"name", m.name},
-          {"density_kg_m3", m.density_kg_m3},
-          {"E_L_MPa", m.E_L},
-          {"E_R_MPa", m.E_R},
-          {"E_T_MPa", m.E_T},
-          {"Y_R_MPa", m.Y_R},
-          {"hardening_K_MPa", m.hardening_K}};
+  Json description{{"name", m.name},
+                   {"density_kg_m3", m.density_kg_m3},
+                   {"E_L_MPa", m.E_L},
+                   {"E_R_MPa", m.E_R},
+                   {"E_T_MPa", m.E_T},
+                   {"law", wood::name(m.law)},
+                   {"Y_R_MPa", m.law == wood::Law::kHill ? m.Y_R : m.crushing.Y_R}};
+  if (m.law == wood::Law::kHill) description["hardening_K_MPa"] = m.hardening_K;
+  return description;
 }
 
 // Materials of the case's kinds, and those that strands of a mat file name beside them.
@@ -88,12 +85,15 @@ Json describe(const cases::Case& c, const Json& record) {
                      {"stiffness_factor", kind.stiffness_factor}});
   }
   for (const auto& material : materials_of(c, record)) materials.push_back(describe(material));
+  Json densities = Json::array();
+  for (const auto& state : record.value("states", Json::array())) densities.push_back(state.at("density_kg_m3"));
   return {{"name", as_text(c.name)},
           {"mat_file", as_text(c.mat_file)},
           {"seed", std::to_string(c.seed)},  // a number of the page is exact to 2^53 only
           {"kinds", kinds},
           {"materials", materials},
           {"compactions", c.schedule.compactions},
+          {"densities_kg_m3", densities},
           {"speed_m_s", c.schedule.speed_m_s},
           {"friction", c.mpm.friction},
           {"compliances_t_mm_per_MPa", c.test.compliance_t_mm_per_MPa},

@@ -56,11 +56,12 @@ Shapes shapes_of(const cases::Case& c, const std::vector<Panel<2>>& panels) {
   return shapes;
 }
 
-std::vector<report::Finding> findings_of(const std::vector<press::Record>& records,
+std::vector<report::Finding> findings_of(const cases::Case& c, const std::vector<press::Record>& records,
                                          const std::vector<std::string>& warnings, const Shapes& shapes) {
-  auto findings = report::pressing_findings(records, warnings);
-  const auto shape = report::shape_findings(shapes.morphologies);
-  findings.insert(findings.end(), shape.begin(), shape.end());
+  auto findings = report::pressing_findings(records, press::judged_from(c.schedule), warnings);
+  for (const auto& more :
+       {report::softening_findings(cases::strand_kinds(c)), report::shape_findings(shapes.morphologies)})
+    findings.insert(findings.end(), more.begin(), more.end());
   return findings;
 }
 

@@ -13,6 +13,7 @@
 #include "strandlab/core/error.hpp"
 #include "strandlab/files/atomic_file.hpp"
 #include "strandlab/io/checkpoint.hpp"
+#include "strandlab/run/folder.hpp"
 #include "strandlab/run/profile_bins.hpp"
 
 namespace strandlab::run {
@@ -38,7 +39,7 @@ Run open_run(const fs::path& folder) {
                     "`strandlab press` has filled",
                     folder.string()));
   }
-  return {folder, cases::read_case(folder / "case.toml")};
+  return {folder, read_run_case(folder)};
 }
 
 // Replicates are runs of one case with other random mats: everything else that the pressing depends on is the same.

@@ -90,7 +90,8 @@ TestedState test(const cases::Case& c, const Panel<2>& panel, double compaction,
   return state;
 }
 
-Tested test(const cases::Case& c, const std::vector<Panel<2>>& panels, Observer& observer) {
+Tested test(const Formed& formed, const std::vector<Panel<2>>& panels, Observer& observer) {
+  const auto& c = formed.c;
   Tested tested;
   for (std::size_t i = 0; i < panels.size(); ++i) {
     tell_progress(c, i, observer);
@@ -116,12 +117,13 @@ void refuse_if_none_is_testable(const Tested& tested) {
   throw InputError(message);
 }
 
-std::vector<report::PanelModulus> moduli_of(const Tested& tested) {
+std::vector<report::PanelModulus> moduli_of(const Formed& formed, const Tested& tested) {
   std::vector<report::PanelModulus> moduli;
   for (const auto& state : tested) {
+    const double density = cases::density_kg_m3(formed.c, formed.mat, state.compaction);
     for (const auto& m : state.result.moduli) {
       moduli.push_back({state.compaction, vtest::name(m.kind), m.compliance_t_mm_per_MPa, m.modulus_MPa,
-                        m.reaction_modulus_MPa, m.shear_free_modulus_MPa});
+                        m.reaction_modulus_MPa, m.shear_free_modulus_MPa, density});
     }
   }
   return moduli;

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using cases::Step;
 
 void write_moduli(const Journey& journey, const Tested& tested) {
-  report::moduli_table(moduli_of(tested)).write(journey.folder.file("moduli.csv"));
+  report::moduli_table(moduli_of(journey.formed, tested)).write(journey.folder.file("moduli.csv"));
 }
 
 // Modulus against glue and against compaction for each test, with the closed-form models over them, and these models'
@@ -50,7 +50,7 @@ void restore_tables(Journey& journey, const Tested& tested) {
   journey.log.say(fmt::format("test: made again, as missing: {}", fmt::join(missing, ", ")));
   folder.forget(Step::kPage);
   write_moduli(journey, tested);
-  write_plots(journey, moduli_of(tested));
+  write_plots(journey, moduli_of(journey.formed, tested));
 }
 
 // The state's files and its place in the record: tests that are stopped go on behind it.
@@ -104,7 +104,7 @@ Tested test_into(Journey& journey) {
   for (const auto& state : tested) wall_s += state.wall_s;
   folder.record(Step::kTest)["wall_s"] = wall_s;
   refuse_if_none_is_testable(tested);
-  const auto moduli = moduli_of(tested);
+  const auto moduli = moduli_of(journey.formed, tested);
   write_plots(journey, moduli);
   folder.record(Step::kTest)["findings"] = report::to_json(findings_of(tested));
   folder.set_finished(Step::kTest);

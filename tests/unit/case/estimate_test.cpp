@@ -25,7 +25,9 @@ struct Slice {  // 20 mm of the OSB case
   Slice() {
     c.length_mm = 20;
     c.threads = 1;
-    panel = make_panel(c, make_mat(c));
+    const auto mat = make_mat(c);
+    settle_states(c, mat);
+    panel = make_panel(c, mat);
     e = estimate(c, panel);
   }
 };

@@ -36,6 +36,8 @@ inline std::string other_value(const Key& key, const Case& c, const std::string&
   if (key.path == "hotpress.platen_program" || key.path == "hotpress.platen_bottom_program") return "\"0 190, 60 180\"";
   if (key.path == "test.kinds") return "[\"bending_end_couple\"]";
   if (key.path == "press.compactions") return "[0.05, 0.25]";
+  if (key.path == "press.densities_kg_m3") return "[500, 600]";
+  if (key.path == "press.thicknesses_mm") return "[12, 8]";
   if (key.choices) return to_toml(key.choices(c).back());
   if (const auto* flag = std::get_if<bool>(&value)) return to_toml(!*flag);
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return to_toml(*whole + 1);

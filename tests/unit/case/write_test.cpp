@@ -53,10 +53,24 @@ TEST(CaseWrite, ReadyCasesHaveTheirRows) {
   // OSB has 10 core rows across; OSL and LVL none; plywood and LVL have no gaps: one strand per row.
   EXPECT_EQ(layup(ready_case("osl")).rows[10].kind, "surface");
   EXPECT_EQ(make_mat(ready_case("osb")).layers[10].role, "core");
-  for (const auto* name : {"plywood", "lvl"}) {
+  for (const auto* name : {"plywood", "lvl", "le2010_plywood", "le2010_lvl"}) {
     for (const auto& layer : make_mat(ready_case(name)).layers) EXPECT_EQ(layer.strands.size(), 1U) << name;
   }
   EXPECT_THROW(ready_case("osbb"), InputError);
+}
+
+// The panels of the dissertation are pressed as it does, the others as a mill would.
+TEST(CaseWrite, CasesOfTheDissertationKeepItsLaw) {
+  for (const auto& name : ready_cases()) {
+    const auto c = ready_case(name);
+    const bool published = name.find("le2010") == 0 || name.find("rathi") == 0 || name.find("osb_") == 0;
+    for (const auto& kind : strand_kinds(c)) {
+      EXPECT_EQ(kind.material.law, published ? wood::Law::kHill : wood::Law::kCrushing) << name;
+      EXPECT_EQ(kind.yield_factor, published ? 1 : kind.name == "surface" ? 0.5 : 0.75) << name;
+    }
+    EXPECT_EQ(c.states.compactions.empty(), !published) << name;
+    EXPECT_EQ(published ? c.states.compactions.back() : c.states.densities_kg_m3.back(), published ? 0.4 : 640) << name;
+  }
 }
 
 // Rows of Le (2010), 3.6.4: VTC on the surfaces, a core at any angle in Rathi's panels.

@@ -168,21 +168,26 @@ TEST(Press, WarnsOfContactThatDidNotSettle) {
 }
 
 // Motion is large against a stress that has yet to rise; where it no longer is, the warning says from which compaction
-// on: that of the last record with more than a twentieth of the internal energy in motion.
+// on: that of the last record with more than a tenth of the internal energy in motion.
 TEST(Press, WarningsSayWhereInertiaNoLongerShows) {
   const auto panel = rows(4, 2 * kRow);
-  auto schedule = schedule_to({0, 0.3});
+  auto schedule = schedule_to({0, 0.05, 0.3});
   schedule.speed_m_s = 60;
   const auto outcome = press::press<2>(panel, schedule, small_setup(panel), {});
   ASSERT_FALSE(outcome.warnings.empty());
   double last = 0;
   for (const auto& r : outcome.records) {
-    if (r.compaction > 0.05 && r.kinetic_mJ > 0.05 * r.internal_mJ()) last = r.compaction;
+    if (r.compaction >= 0.05 && r.kinetic_mJ > 0.1 * r.internal_mJ()) last = r.compaction;
   }
   ASSERT_GT(last, 0.05);
   ASSERT_LT(last, 0.25);
-  const auto told = fmt::format("(limit 5 %, kept from compaction {:.2f} on)", last);
+  const auto told = fmt::format("(limit 10 %, kept from compaction {:.2f} on)", last);
   EXPECT_NE(outcome.warnings.front().find(told), std::string::npos) << outcome.warnings.front() << "\n" << told;
+  // It says what that costs, and where more is written; and a state kept only after it is no reason to warn.
+  EXPECT_NE(outcome.warnings.front().find("moduli"), std::string::npos) << outcome.warnings.front();
+  EXPECT_NE(outcome.warnings.front().find("The speed of the press"), std::string::npos) << outcome.warnings.front();
+  schedule.compactions = {0, 0.3};
+  EXPECT_TRUE(press::press<2>(panel, schedule, small_setup(panel), {}).warnings.empty());
 }
 
 // States handed out by a pressing that fails: the mat slides out of its window sideways, at `speed_mm_s` along the

@@ -39,33 +39,59 @@ Finding find(const std::vector<Finding>& list, const std::string& words) {
 }
 
 TEST(Findings, OfAQuietPressing) {
-  const auto list = pressing_findings(records(0.99, 2), {});
+  const auto list = pressing_findings(records(0.99, 2), 0.05, {});
   EXPECT_EQ(find(list, "slow enough").level, Level::kGood);
   EXPECT_NE(find(list, "slow enough").text.find("never held more than 1.0 %"), std::string::npos);  // .99 of 97.01
   EXPECT_EQ(find(list, "add up").text, "The energies add up: all terms together match the platens' work to 0.00 %.");
   EXPECT_NE(find(list, "slid").text.find("friction took 2.0 %"), std::string::npos);
 }
 
+// What the strands do before the first kept state is no fault of the press, but shows in the stress.
+TEST(Findings, OfMotionBeforeTheFirstKeptState) {
+  auto list = records(0.99, 2);
+  auto early = list[0];
+  early.compaction = 0.11;
+  early.kinetic_mJ = 20;
+  list.insert(list.begin(), early);
+  const auto inertia = find(pressing_findings(list, 0.2, {}), "slow enough");
+  EXPECT_EQ(inertia.level, Level::kGood);
+  EXPECT_NE(inertia.text.find("from 20 % compaction on the motion of the wood never held more than 1.0 %"),
+            std::string::npos)
+      << inertia.text;
+  EXPECT_NE(inertia.text.find("Up to 11 % it held more"), std::string::npos) << inertia.text;
+}
+
+TEST(Findings, OfSoftenedStrandsSayThatTheyStandInForHeat) {
+  StrandKind face, core;
+  face.name = "face";
+  core.name = "core";
+  EXPECT_TRUE(softening_findings({face, core}).empty());
+  face.yield_factor = 0.5;
+  core.stiffness_factor = 0.25;
+  const auto text = find(softening_findings({face, core}), "stand in for the heat").text;
+  EXPECT_NE(text.find("face 0.5, core 0.25 (stiffness)"), std::string::npos) << text;
+}
+
 TEST(Findings, OfEnergiesThatDoNotAddUp) {
   auto list = records(0, 0);
   list[0].plastic_mJ = 88.5;  // 1.5 % of the work is missing, beyond press::kBalanceLimit
-  const auto balance = find(pressing_findings(list, {}), "energies are off");
+  const auto balance = find(pressing_findings(list, 0.05, {}), "energies are off");
   EXPECT_EQ(balance.level, Level::kWarning);
   EXPECT_EQ(balance.text, "The energies are off by 1.5 % of the platens' work (limit 1 %).");
 }
 
 // A warning of the press takes the place of the praise that it contradicts.
 TEST(Findings, OfAPressThatWarned) {
-  const auto list = pressing_findings(records(1, 0), {"The press closed too fast."});
+  const auto list = pressing_findings(records(1, 0), 0.05, {"The press closed too fast."});
   EXPECT_EQ(list.front().level, Level::kWarning);
   EXPECT_EQ(list.front().text, "The press closed too fast.");
   for (const auto& f : list) EXPECT_EQ(f.text.find("slow enough"), std::string::npos);
 }
 
 TEST(Findings, OfAMatThatWasNotPressed) {
-  ASSERT_EQ(pressing_findings({press::Record{}}, {}).size(), 1U);
-  EXPECT_EQ(pressing_findings({press::Record{}}, {})[0].text, "The mat was not pressed.");
-  EXPECT_EQ(pressing_findings({}, {})[0].text, "The mat was not pressed.");
+  ASSERT_EQ(pressing_findings({press::Record{}}, 0.05, {}).size(), 1U);
+  EXPECT_EQ(pressing_findings({press::Record{}}, 0.05, {})[0].text, "The mat was not pressed.");
+  EXPECT_EQ(pressing_findings({}, 0.05, {})[0].text, "The mat was not pressed.");
 }
 
 TEST(Findings, OfOverlapsOnEitherSideOfWhatDrawingExplains) {

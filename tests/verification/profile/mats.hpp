@@ -22,6 +22,8 @@ struct Job {
   bool symmetric = false;
   std::vector<double> compactions{0.4};
   double surface_yield = 1, surface_stiffness = 1;  // softening factors of surface strands
+  double core_yield = 1;
+  wood::Law law = wood::Law::kHill;
 };
 
 // OSB in the proportions of the main job, with strands and gaps scaled to the short window.
@@ -38,13 +40,15 @@ inline mat::Mat osb(const Job& job, std::uint64_t seed) {
 
 inline Panel<2> panel_of(const mat::Mat& mat, const Job& job) {
   const double height = mat.layer_thickness_mm / job.cells_through_strand;
-  const auto& poplar = wood::library().front();
-  return make_panel(mat, {{"surface", poplar, 0, job.surface_yield, job.surface_stiffness}, {"core", poplar, 90}},
-                    height * job.cell_aspect / 2, 2 * job.cells_through_strand);
+  auto poplar = wood::library().front();
+  poplar.law = job.law;
+  return make_panel(
+      mat, {{"surface", poplar, 0, job.surface_yield, job.surface_stiffness}, {"core", poplar, 90, job.core_yield}},
+      height * job.cell_aspect / 2, 2 * job.cells_through_strand);
 }
 
-// The panel at each compaction of the job.
-inline std::vector<Panel<2>> pressed(const Panel<2>& mat, const Job& job) {
+// The pressing of the job, which hands the panel at each compaction to `sink`.
+inline press::Outcome<2> press_job(const Panel<2>& mat, const Job& job, const press::Sink<2>& sink) {
   press::Resolution resolution;
   resolution.cells_through_strand = job.cells_through_strand;
   resolution.cell_aspect = job.cell_aspect;
@@ -52,10 +56,15 @@ inline std::vector<Panel<2>> pressed(const Panel<2>& mat, const Job& job) {
   schedule.speed_m_s = job.speed_m_s;
   schedule.symmetric = job.symmetric;
   schedule.compactions = job.compactions;
+  return press::press<2>(mat, schedule, press::setup(mat, resolution, mpm::Side::kRoller, mpm::Options{}), sink);
+}
+
+// The panel at each compaction of the job.
+inline std::vector<Panel<2>> pressed(const Panel<2>& mat, const Job& job) {
   std::vector<Panel<2>> states;
   press::Sink<2> sink;
   sink.snapshot = [&states](const Panel<2>& panel, int) { states.push_back(panel); };
-  press::press<2>(mat, schedule, press::setup(mat, resolution, mpm::Side::kRoller, mpm::Options{}), sink);
+  press_job(mat, job, sink);
   return states;
 }
 
