@@ -95,7 +95,7 @@ void write_what_follows(Journey& journey, const std::vector<press::Record>& reco
   const auto panels = read_panels(journey);
   const auto shapes = shapes_of(journey.formed.c, panels);
   auto& record = journey.folder.record(Step::kPress);
-  record["density_profiles"] = to_json(shapes.density_profiles);
+  record["density_profiles"] = run::to_json(shapes.density_profiles);
   if (!records.empty()) record["findings"] = report::to_json(findings_of(journey.formed.c, records, warnings, shapes));
   write_tables(journey, shapes);
   warn_if(log, report::plot_density_profiles(shapes.density_profiles, pictures / "density_profile.png"));

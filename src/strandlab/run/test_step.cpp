@@ -62,7 +62,7 @@ void keep(Journey& journey, const Tested& tested) {
     fs::create_directories(file.parent_path());
     report::slip_table(last.result).write(file);
   }
-  folder.record(Step::kTest)["states"] = to_json(tested);
+  folder.record(Step::kTest)["states"] = run::to_json(tested);
   write_moduli(journey, tested);
   folder.save();
 }
