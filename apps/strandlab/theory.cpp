@@ -29,7 +29,7 @@ theory::Question question_of(const TheoryArguments& a) {
   if (a.file.empty() && !a.overrides.empty()) throw InputError("--set changes keys of a case; give a case file too");
   theory::Question q = a.question;
   const auto mat = cases::make_mat(c);
-  cases::settle_states(c, mat);
+  if (a.compactions.empty()) cases::settle_states(c, mat);
   q.rows = run::theory_rows(c, mat);
   q.compactions = a.compactions.empty() ? c.schedule.compactions : a.compactions;
   q.compliances_t = a.compliances.empty() ? c.test.compliance_t_mm_per_MPa : a.compliances;

@@ -65,6 +65,8 @@ angle_spread_deg = 90
 species = "douglas-fir"
 E_L_MPa = 13000
 density_kg_m3 = 500
+[press]
+compactions = [0, 0.1]
 """, encoding="utf-8")
     coarse = settings(*COARSE[1:])
     told = "material fir: E_R, E_T, G_RL, G_TL, G_RT, nu_RL, nu_TL, nu_TR follow from E_L = 13000 MPa"

@@ -72,6 +72,13 @@ mat::LayupRow layup_row(const KindSettings& kind) {
   return row;
 }
 
+// What is wrong with a mat, and with which where it came from a file.
+std::string about_mat(const Case& c, const InputError& e) {
+  if (c.mat_file.empty()) return e.what();
+  const std::string given = c.places.mat_file.empty() ? "" : c.places.mat_file + ": ";
+  return fmt::format("{}{}: {}", given, c.mat_file, e.what());
+}
+
 // The thickest state decides: bending on supports is at a span in thicknesses.
 void refuse_too_short(const Case& c, const Panel<2>& panel) {
   const double compaction = c.schedule.compactions.front();
@@ -140,7 +147,11 @@ mat::Mat make_mat(const Case& c) {
 }
 
 Weight weigh(const Case& c, const mat::Mat& mat) {
-  return strandlab::weigh(mat, kinds_and_materials(c));
+  try {
+    return strandlab::weigh(mat, kinds_and_materials(c));
+  } catch (const InputError& e) {
+    throw InputError(about_mat(c, e));
+  }
 }
 
 double density_kg_m3(const Case& c, const mat::Mat& mat, double compaction) {
@@ -163,7 +174,8 @@ void settle_states(Case& c, const mat::Mat& mat) {
     const double compaction =
         std::round(kStates * (1 - (by_density ? formed / asked[i] : asked[i] / formed))) / kStates;
     if (compaction < 0)
-      fail(fmt::format("is {} the mat as formed, which has {:.4g} {}", by_density ? "below" : "above", formed, unit));
+      fail(fmt::format("is {} the mat as formed, which has {:.4g} {}: begin there or denser",
+                       by_density ? "below" : "above", formed, unit));
     if (compaction >= 1) fail("leaves nothing of the mat");
     if (!compactions.empty() && compaction <= compactions.back())
       fail(fmt::format("is the same state as the entry before: both are compaction {}", compaction));
@@ -203,9 +215,7 @@ Panel<2> make_panel(const Case& c, const mat::Mat& mat) {
     refuse_too_short(c, panel);
     return panel;
   } catch (const InputError& e) {
-    if (c.mat_file.empty()) throw;
-    const std::string given = c.places.mat_file.empty() ? "" : c.places.mat_file + ": ";
-    throw InputError(fmt::format("{}{}: {}", given, c.mat_file, e.what()));
+    throw InputError(about_mat(c, e));
   }
 }
 

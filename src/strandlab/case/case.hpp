@@ -110,8 +110,8 @@ void settle_states(Case& c, const mat::Mat& mat);
 // One line for each of the case's materials whose constants follow from a species' ratios: which, from what, and where
 // the ratios are from; or of which only E_L was changed: which constants did not follow it.
 std::vector<std::string> derived_constants(const Case& c);
-// The panel before pressing, with the material points of the case's grid. Throws InputError when it does not fit into
-// the memory that is free.
+// The panel before pressing of a case whose states are settled, with the material points of the case's grid. Throws
+// InputError when it does not fit into the memory that is free.
 Panel<2> make_panel(const Case& c, const mat::Mat& mat);
 
 }  // namespace strandlab::cases

@@ -331,7 +331,7 @@ void add_material_keys(std::vector<Key>& t) {
 void add_press_keys(std::vector<Key>& t) {
   t.push_back(key(
       "press.speed_m_s", "m/s", {.lo = 0, .hi = 1000, .lo_open = true},
-      "closing speed of the platens; up to 16 panels from 20 % compaction on do not depend on it",
+      "closing speed of the platens; up to 16 panels from 20 % compaction on hardly depend on it",
       [](auto& c) -> auto& { return c.schedule.speed_m_s; }));
   t.push_back(key(
       "press.densities_kg_m3", "kg/m3",

@@ -78,6 +78,8 @@ Warning plot_histograms(const std::vector<Morphology>& states, Histogram Morphol
       plot.curves.push_back(outline(h, compaction_percent(state.compaction)));
     }
   }
+  if (plot.curves.empty() && !states.empty())  // every state is one bar
+    plot.curves.push_back(outline(states.back().*quantity, percent(states.back().compaction)));
   fit_axis(plot, std::nullopt);
   return draw(plot, png);
 }

@@ -16,6 +16,7 @@
 namespace strandlab::vtest {
 namespace {
 
+constexpr double kFewFolded = 1e-3;    // of the elements: corners of single strands
 constexpr double kRoundOff = 1e-9;     // of lengths
 constexpr double kShortestSpan = 8;    // thicknesses: room for loads at thirds and for half the span
 constexpr double kSoftestGlue = 1e-3;  // MPa/mm: below this strands slide freely and the stiffness matrix is singular
@@ -115,7 +116,7 @@ Model make_model(const Panel<2>& panel, const Options& options, Result& result) 
   for (const int n : model.section.right) at_end[n] = true;
   model.stiffness.emplace(model.mesh, statics::make_springs(model.mesh, points, at_end));
   result.unknowns = model.mesh.dofs();
-  if (model.mesh.straightened > 0) {
+  if (model.mesh.straightened > kFewFolded * static_cast<double>(model.mesh.elements.size())) {
     result.warnings.push_back(
         fmt::format("{} of {} elements were folded over, as dragged strand corners are, and were straightened.",
                     model.mesh.straightened, model.mesh.elements.size()));

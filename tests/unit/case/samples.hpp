@@ -38,7 +38,10 @@ inline std::string other_value(const Key& key, const Case& c, const std::string&
   if (key.path == "press.compactions") return "[0.05, 0.25]";
   if (key.path == "press.densities_kg_m3") return "[500, 600]";
   if (key.path == "press.thicknesses_mm") return "[12, 8]";
-  if (key.choices) return to_toml(key.choices(c).back());
+  if (key.choices) {
+    const auto names = key.choices(c);
+    return to_toml(Value(names.back()) == value ? names.front() : names.back());
+  }
   if (const auto* flag = std::get_if<bool>(&value)) return to_toml(!*flag);
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return to_toml(*whole + 1);
   if (const auto* list = std::get_if<std::vector<double>>(&value))

@@ -160,10 +160,11 @@ TEST(ResultTables, HaveTheColumnsScriptsRelyOn) {
             "compaction,time_ms,stress_MPa,force_top_N,force_bottom_N,kinetic_mJ,internal_mJ,plastic_mJ");
   EXPECT_NE(press.find("\n0.1,0.25,3,301,299,1,12,7,"), std::string::npos) << press;
   EXPECT_EQ(
-      moduli_table({{0.2, "tension", 0.0105, 5432.1, 5432.2}, {0.2, "bending_3_point", 0, 4800.5, 4800.5, 5000.25}})
+      moduli_table({{0.2, "tension", 0.0105, 5432.1, 5432.2, {}, 437.5},
+                    {0.2, "bending_3_point", 0, 4800.5, 4800.5, 5000.25, 437.5}})
           .text(),
-      "compaction,test,compliance_t_mm_per_MPa,modulus_MPa,reaction_modulus_MPa,shear_free_modulus_MPa\n"
-      "0.2,tension,0.0105,5432.1,5432.2,nan\n0.2,bending_3_point,0,4800.5,4800.5,5000.25\n");
+      "compaction,test,compliance_t_mm_per_MPa,modulus_MPa,reaction_modulus_MPa,shear_free_modulus_MPa,density_kg_m3\n"
+      "0.2,tension,0.0105,5432.1,5432.2,nan,437.5\n0.2,bending_3_point,0,4800.5,4800.5,5000.25,437.5\n");
 }
 
 }  // namespace

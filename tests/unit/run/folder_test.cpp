@@ -151,7 +151,8 @@ TEST(RunFolder, RefusesANameThatCannotBe) {
 
 TEST(RunFolder, SaysWhatIsMissing) {
   const TemporaryFolder folder;
-  const auto c = with("press.compactions=[0, .1]");
+  auto c = with("press.compactions=[0, .1]");
+  c.schedule.compactions = c.states.compactions;
   make_finished(folder / "run", c);
   const RunFolder run(folder / "run", c, cases::Step::kMat, false, kSmall);
   EXPECT_EQ(run.missing(cases::Step::kMat, c), std::vector<std::string>{});
