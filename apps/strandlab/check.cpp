@@ -33,8 +33,9 @@ void tell_short_mat(const cases::Case& c, const mat::Mat& mat) {
 void check(const CaseArguments& arguments) {
   const auto formed = run::form(arguments.read());
   run::refuse_untestable(formed);
-  const auto& [c, mat, panel] = formed;
-  const auto e = cases::estimate(c, panel);
+  const auto& c = formed.c;
+  const auto& mat = formed.mat;
+  const auto e = cases::estimate(c, formed.panel);
   print("{}\n", cases::resolved_text(c));
   print("# mat: {} rows, {} strands, {:g} x {:g} mm\n", mat.layers.size(), e.strands, mat.length_mm,
         mat.thickness_mm());

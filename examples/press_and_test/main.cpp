@@ -38,9 +38,9 @@ int main() {
   using namespace strandlab;
   try {
     Listener listener;
-    const auto c = cases::case_from_text(kCase, "press_and_test");
-    const auto pressed = run::press(run::form(c), listener);
-    for (const auto& state : run::test(c, pressed.panels, listener)) {
+    const auto formed = run::form(cases::case_from_text(kCase, "press_and_test"));
+    const auto pressed = run::press(formed, listener);
+    for (const auto& state : run::test(formed, pressed.panels, listener)) {
       for (const auto& m : state.result.moduli) {
         std::printf("compaction %.2f, %s, 1/D_t = %g mm/MPa: %.0f MPa\n", state.compaction, vtest::name(m.kind),
                     m.compliance_t_mm_per_MPa, m.modulus_MPa);

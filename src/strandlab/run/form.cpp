@@ -6,8 +6,7 @@
 
 namespace strandlab::run {
 
-Formed form(const cases::Case& asked) {
-  auto c = asked;
+Formed form(cases::Case c) {
   auto mat = cases::make_mat(c);
   cases::settle_states(c, mat);
   auto panel = cases::make_panel(c, mat);

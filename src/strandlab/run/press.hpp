@@ -34,10 +34,10 @@ Pressed press(const Formed& formed, Observer& observer);
 press::Outcome<2> press(const Formed& formed, press::Sink<2> keep, const std::optional<press::Checkpoint<2>>& resume,
                         Observer& observer);
 
-// Of the panels of a case, one per compaction.
+// Of the panels of a formed mat's case, one per compaction.
 Shapes shapes_of(const cases::Case& c, const std::vector<Panel<2>>& panels);
 
-// What records and shapes of a pressed case say, in plain words.
+// What records and shapes say, in plain words.
 std::vector<report::Finding> findings_of(const cases::Case& c, const std::vector<press::Record>& records,
                                          const std::vector<std::string>& warnings, const Shapes& shapes);
 

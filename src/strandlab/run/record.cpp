@@ -35,6 +35,16 @@ Json machine() {
           {"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)}};
 }
 
+// The states at which the panel is kept, as they were solved for this mat.
+Json states_of(const Formed& formed) {
+  auto list = Json::array();
+  for (const double compaction : formed.c.schedule.compactions)
+    list.push_back({{"compaction", compaction},
+                    {"thickness_mm", formed.mat.thickness_mm() * (1 - compaction)},
+                    {"density_kg_m3", cases::density_kg_m3(formed.c, formed.mat, compaction)}});
+  return list;
+}
+
 Json fractions(const std::vector<WeightShare>& shares) {
   Json object = Json::object();
   for (const auto& share : shares) object[share.name] = share.fraction;

@@ -90,7 +90,8 @@ TestedState test(const cases::Case& c, const Panel<2>& panel, double compaction,
   return state;
 }
 
-Tested test(const cases::Case& c, const std::vector<Panel<2>>& panels, Observer& observer) {
+Tested test(const Formed& formed, const std::vector<Panel<2>>& panels, Observer& observer) {
+  const auto& c = formed.c;
   Tested tested;
   for (std::size_t i = 0; i < panels.size(); ++i) {
     tell_progress(c, i, observer);

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "strandlab/case/case.hpp"
 #include "strandlab/report/findings.hpp"
 #include "strandlab/report/result_tables.hpp"
 #include "strandlab/run/form.hpp"
@@ -41,8 +40,9 @@ using Tested = std::vector<TestedState>;  // by compaction
 // when the observer stops it.
 TestedState test(const cases::Case& c, const Panel<2>& panel, double compaction, Observer& observer);
 
-// Tests all panels of a case, one per compaction. Throws as above, and InputError or RunError where none is testable.
-Tested test(const cases::Case& c, const std::vector<Panel<2>>& panels, Observer& observer);
+// Tests all panels of a formed mat, one per compaction. Throws as above, and InputError or RunError where none is
+// testable.
+Tested test(const Formed& formed, const std::vector<Panel<2>>& panels, Observer& observer);
 
 // Tells that the test of the panel at compactions[index] begins.
 void tell_progress(const cases::Case& c, std::size_t index, Observer& observer);
@@ -50,7 +50,6 @@ void tell_progress(const cases::Case& c, std::size_t index, Observer& observer);
 // One panel without moduli is a result; that none has any is an error: InputError, or RunError where the last failed.
 void refuse_if_none_is_testable(const Tested& tested);
 
-// With the density of the mat that was formed at each state.
 std::vector<report::PanelModulus> moduli_of(const Formed& formed, const Tested& tested);
 std::vector<report::Finding> findings_of(const Tested& tested);
 
