@@ -57,16 +57,6 @@ Json to_json(const Weight& weight) {
           {"weight_fraction_by_material", fractions(weight.by_material)}};
 }
 
-// The states at which the panel is kept, as they were solved for this mat.
-Json states_of(const Formed& formed) {
-  auto list = Json::array();
-  for (const double compaction : formed.c.schedule.compactions)
-    list.push_back({{"compaction", compaction},
-                    {"thickness_mm", formed.mat.thickness_mm() * (1 - compaction)},
-                    {"density_kg_m3", cases::density_kg_m3(formed.c, formed.mat, compaction)}});
-  return list;
-}
-
 // Nanoseconds of one thread per particle-step, by phase.
 Json phases(const mpm::Timing& t, double particle_steps) {
   const auto ns = [particle_steps](double seconds) { return particle_steps > 0 ? 1e9 * seconds / particle_steps : 0; };

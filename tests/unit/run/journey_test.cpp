@@ -64,7 +64,7 @@ std::map<std::string, std::string> results(const fs::path& folder) {
   return files;
 }
 
-std::vector<double> moduli(const cases::Case& c, const Tested& tested) {
+std::vector<double> moduli(const Tested& tested) {
   std::vector<double> values;
   for (const auto& state : tested)
     for (const auto& m : state.result.moduli) values.push_back(m.modulus_MPa);
@@ -123,7 +123,7 @@ TEST(StepsInMemory, GiveTheSameAndWriteNothing) {
   EXPECT_TRUE(fs::is_empty(folder / "empty"));
   ASSERT_EQ(pressed.panels.size(), 2);
   EXPECT_FALSE(pressed.outcome.records.empty());
-  EXPECT_EQ(moduli(c, tested), moduli(c, all(c, {folder / "run"}, nobody)));
+  EXPECT_EQ(moduli(tested), moduli(all(c, {folder / "run"}, nobody)));
 }
 
 // A finished journey gives its tests again from the folder.
