@@ -11,12 +11,12 @@
 namespace strandlab::contact_tests {
 namespace {
 
-constexpr double kCell = 0.25;  // mm
+constexpr double kFaceCell = 0.25;  // mm
 
 mpm::Grid<2> open_grid(double offset_cells = 0) {
   mpm::Grid<2> grid;
-  grid.cell = Vec<2>::Constant(kCell);
-  grid.origin = Vec<2>::Constant(offset_cells * kCell);
+  grid.cell = Vec<2>::Constant(kFaceCell);
+  grid.origin = Vec<2>::Constant(offset_cells * kFaceCell);
   grid.lo = Vec<2>::Constant(-8);
   grid.hi = Vec<2>::Constant(8);
   return grid;
@@ -26,10 +26,10 @@ mpm::Grid<2> open_grid(double offset_cells = 0) {
 std::vector<mpm::Body<2>> about_to_meet(double gap) {
   const auto material = elastic_material(1000, 0.3);
   std::vector<mpm::Body<2>> bodies{
-      block<2>(material, Vec<2>(0, -4 * kCell), Vec<2>(8 * kCell, 0), kCell / 2),
-      block<2>(material, Vec<2>(0, gap * kCell), Vec<2>(8 * kCell, (4 + gap) * kCell), kCell / 2)};
+      block<2>(material, Vec<2>(0, -4 * kFaceCell), Vec<2>(8 * kFaceCell, 0), kFaceCell / 2),
+      block<2>(material, Vec<2>(0, gap * kFaceCell), Vec<2>(8 * kFaceCell, (4 + gap) * kFaceCell), kFaceCell / 2)};
   const double dt = mpm::Engine<2>(bodies, open_grid(), {}).state().time_step_s;
-  for (auto& v : bodies[1].points.v) v[1] = -(gap + 0.05) * kCell / dt;
+  for (auto& v : bodies[1].points.v) v[1] = -(gap + 0.05) * kFaceCell / dt;
   return bodies;
 }
 
@@ -44,7 +44,8 @@ TEST(Faces, AreStoppedInTheStepInWhichTheyWouldCross) {
       engine.write(bodies);
       report(fmt::format("blocks {} cells apart, grid offset {}, that would cross by .05: gap after one step", gap,
                          offset),
-             (face_position(bodies[1], 0, 1) - face_position(bodies[0], 1, 1)) / kCell, between(-0.01, 0.06), "cells");
+             (face_position(bodies[1], 0, 1) - face_position(bodies[0], 1, 1)) / kFaceCell, between(-0.01, 0.06),
+             "cells");
     }
   }
 }
@@ -53,11 +54,11 @@ TEST(Faces, AreStoppedInTheStepInWhichTheyWouldCross) {
 // that oppose each other by more than 120 degrees meet. None would meet from 160 degrees on, and it would sink in.
 TEST(Faces, OfABlockOnEdgeMeetTheFaceBelow) {
   const auto material = elastic_material(1000, 0.3);
-  auto base = block<2>(material, Vec<2>(-4, -1), Vec<2>(4, 0), kCell / 2);
-  auto falling = block<2>(material, Vec<2>(-1, -1), Vec<2>(1, 1), kCell / 2);
+  auto base = block<2>(material, Vec<2>(-4, -1), Vec<2>(4, 0), kFaceCell / 2);
+  auto falling = block<2>(material, Vec<2>(-1, -1), Vec<2>(1, 1), kFaceCell / 2);
   Tensor<2> turn;
   turn << std::sqrt(0.5), -std::sqrt(0.5), std::sqrt(0.5), std::sqrt(0.5);
-  const Vec<2> centre(0, std::sqrt(2.0) + 0.5 * kCell);
+  const Vec<2> centre(0, std::sqrt(2.0) + 0.5 * kFaceCell);
   for (std::size_t p = 0; p < falling.points.x.size(); ++p) {
     falling.points.x[p] = centre + turn * falling.points.x[p];
     falling.points.F[p] = turn;
@@ -74,9 +75,9 @@ TEST(Faces, OfABlockOnEdgeMeetTheFaceBelow) {
     double tip = 1e300, below_it = -1e300;
     for (const auto& x : bodies[1].points.x) tip = std::min(tip, x[1]);
     for (const auto& x : bodies[0].points.x) {
-      if (std::abs(x[0]) < kCell) below_it = std::max(below_it, x[1]);
+      if (std::abs(x[0]) < kFaceCell) below_it = std::max(below_it, x[1]);
     }
-    lowest = std::min(lowest, (tip - below_it) / kCell);
+    lowest = std::min(lowest, (tip - below_it) / kFaceCell);
   }
   const double speed = mean<2>(bodies[1].points.v)[1];
   // The outermost particles are a quarter cell below a face and .35 cell above the edge when these touch.

@@ -13,7 +13,7 @@
 namespace strandlab::contact_tests {
 namespace {
 
-constexpr double kCell = 0.5;  // mm
+constexpr double kInclineCell = 0.5;  // mm
 constexpr double kFriction = 0.3;
 constexpr double kGravity = 2e8;  // mm/s^2: strains nothing (0.1 MPa against 1000 MPa) and moves the block by cells
 constexpr int kSettle = 400;      // steps over which gravity rises, longer than the block rings
@@ -44,27 +44,27 @@ class Incline {
     Vec<Dim> low = Vec<Dim>::Zero(), high = Vec<Dim>::Constant(size);
     high[normal_] = 1;
     const auto material = elastic_material(1000, 0.2);
-    auto base = block<Dim>(material, low, high, kCell / 2);
+    auto base = block<Dim>(material, low, high, kInclineCell / 2);
     for (int a = 0; a < Dim; ++a) {
       low[a] = 0.5 * (size - length) + (a == normal_ ? 0.0 : 0.13);
       high[a] = low[a] + length;
     }
     low[normal_] = 1;
     high[normal_] = 2;
-    auto on_top = block<Dim>(material, low, high, kCell / 2);
+    auto on_top = block<Dim>(material, low, high, kInclineCell / 2);
     for (std::size_t p = 0; p < base.points.size(); ++p) {
-      bool under = base.points.x[p][normal_] > 1 - kCell / 2;
+      bool under = base.points.x[p][normal_] > 1 - kInclineCell / 2;
       for (int a = 0; a < Dim; ++a)
         under = under && (a == normal_ || (base.points.x[p][a] > low[a] && base.points.x[p][a] < high[a]));
       if (under) under_block_.push_back(p);
     }
     for (std::size_t p = 0; p < on_top.points.size(); ++p) {
-      if (on_top.points.x[p][normal_] < 1 + kCell / 2) sole_.push_back(p);
+      if (on_top.points.x[p][normal_] < 1 + kInclineCell / 2) sole_.push_back(p);
     }
     bodies_ = {base, on_top};
     if (slope.swapped) std::swap(bodies_[0], bodies_[1]);
     mpm::Grid<Dim> grid;
-    grid.cell = Vec<Dim>::Constant(kCell);
+    grid.cell = Vec<Dim>::Constant(kInclineCell);
     grid.origin = Vec<Dim>::Zero();
     grid.lo = Vec<Dim>::Zero();
     grid.hi = Vec<Dim>::Constant(size);
@@ -138,7 +138,7 @@ void expect_slides(const Slope& slope, int steps) {
          : slope.normal == 1 ? near(1, 5e-4)
                              : near(1, 3e-3));
   const double slip = incline.place() - s0;
-  EXPECT_GT(slip, 0.25 * kCell);
+  EXPECT_GT(slip, 0.25 * kInclineCell);
   const double work = (incline.friction_work() - w0) / (kFriction * incline.weight() * slip);
   report("friction work over mu weight slip, " + slope_name<Dim>(slope), work,
          near(1, Dim == 3            ? 4e-3
@@ -153,9 +153,9 @@ void expect_sticks(const Slope& slope, int steps, double limit) {
   Incline<Dim> incline(slope, 0.2, 0.25 * kGravity);
   const double start = incline.place();
   incline.settle();
-  EXPECT_LT(std::abs(incline.place() - start), limit * kCell);
+  EXPECT_LT(std::abs(incline.place() - start), limit * kInclineCell);
   incline.run(steps);
-  const double slip = std::abs(incline.place() - start) / kCell;
+  const double slip = std::abs(incline.place() - start) / kInclineCell;
   report("slip below the angle of friction, " + slope_name<Dim>(slope), slip, below(limit), "cells");
 }
 

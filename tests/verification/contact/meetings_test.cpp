@@ -11,7 +11,7 @@
 namespace strandlab::contact_tests {
 namespace {
 
-constexpr double kCell = 0.25;  // mm
+constexpr double kMeetingCell = 0.25;  // mm
 
 // Three rows one cell thick, each cut in two at the same place: six bodies share the nodes of the middle row there, as
 // in a mat pressed to 40 %. The left halves run to the right, so that the ends meet too. Returned in the order of
@@ -21,8 +21,8 @@ std::vector<mpm::Body<2>> press_three_rows(const std::vector<std::size_t>& order
   const auto material = elastic_material(1000, 0.3);
   for (int row = 0; row < 3; ++row) {
     for (int half = 0; half < 2; ++half) {
-      made.push_back(
-          block<2>(material, Vec<2>(half * 2.0, row * kCell), Vec<2>(half * 2.0 + 2.0, (row + 1) * kCell), kCell / 4));
+      made.push_back(block<2>(material, Vec<2>(half * 2.0, row * kMeetingCell),
+                              Vec<2>(half * 2.0 + 2.0, (row + 1) * kMeetingCell), kMeetingCell / 4));
       for (auto& v : made.back().points.v) v = Vec<2>((1 - half) * 2000.0 + 300.0 * row, 100.0 * half);
     }
   }
@@ -30,12 +30,12 @@ std::vector<mpm::Body<2>> press_three_rows(const std::vector<std::size_t>& order
   shuffled.reserve(order.size());
   for (std::size_t i : order) shuffled.push_back(made[i]);
   mpm::Grid<2> grid;
-  grid.cell = Vec<2>(kCell, kCell);
-  grid.origin = Vec<2>(0, 0.5 * kCell);
+  grid.cell = Vec<2>(kMeetingCell, kMeetingCell);
+  grid.origin = Vec<2>(0, 0.5 * kMeetingCell);
   grid.lo = Vec<2>(-2, -1);
   grid.hi = Vec<2>(8, 2);
   mpm::Engine<2> engine(shuffled, grid, mpm::Options{});
-  engine.set_platens({0, 0}, {3 * kCell, -4000});
+  engine.set_platens({0, 0}, {3 * kMeetingCell, -4000});
   for (int i = 0; i < 200; ++i) engine.step();
   engine.write(shuffled);
   for (std::size_t i = 0; i < order.size(); ++i) made[order[i]] = shuffled[i];
@@ -56,7 +56,7 @@ TEST(Meetings, ThreeRowsWithTwoEndsEachDoNotDependOnBodyOrder) {
     double dx = 0, dv = 0;
     for (std::size_t b = 0; b < reference.size(); ++b) {
       for (std::size_t p = 0; p < reference[b].points.size(); ++p) {
-        dx = std::max(dx, (other[b].points.x[p] - reference[b].points.x[p]).norm() / kCell);
+        dx = std::max(dx, (other[b].points.x[p] - reference[b].points.x[p]).norm() / kMeetingCell);
         dv = std::max(dv, (other[b].points.v[p] - reference[b].points.v[p]).norm() / moved);
       }
     }
@@ -73,14 +73,15 @@ class TouchingFaces : public testing::TestWithParam<double> {};
 // faces lie between grid lines. Mean over the faces and over the pressing to 5 %.
 TEST_P(TouchingFaces, KeepNoGapAndNoOverlap) {
   const auto material = elastic_material(1000, 0.3);
-  const double thickness = 3 * kCell, length = 8 * kCell, offset = GetParam() * kCell;
+  const double thickness = 3 * kMeetingCell, length = 8 * kMeetingCell, offset = GetParam() * kMeetingCell;
   std::vector<mpm::Body<2>> bodies;
   bodies.reserve(2);
   for (int row = 0; row < 2; ++row) {
-    bodies.push_back(block<2>(material, Vec<2>(0, row * thickness), Vec<2>(length, (row + 1) * thickness), kCell / 2));
+    bodies.push_back(
+        block<2>(material, Vec<2>(0, row * thickness), Vec<2>(length, (row + 1) * thickness), kMeetingCell / 2));
   }
   mpm::Grid<2> grid;
-  grid.cell = Vec<2>(kCell, kCell);
+  grid.cell = Vec<2>(kMeetingCell, kMeetingCell);
   grid.origin = Vec<2>(0, -offset);
   grid.lo = Vec<2>(0, 0);
   grid.hi = Vec<2>(length, 2 * thickness);
@@ -94,7 +95,7 @@ TEST_P(TouchingFaces, KeepNoGapAndNoOverlap) {
     engine.set_platen_velocities(0, -2000 * std::min(1.0, engine.state().time_s / ramp));
     engine.step();
     engine.write(bodies);
-    const double gap = (face_position(bodies[1], 0, 1) - face_position(bodies[0], 1, 1)) / kCell;
+    const double gap = (face_position(bodies[1], 0, 1) - face_position(bodies[0], 1, 1)) / kMeetingCell;
     sum += gap;
     worst = std::max(worst, std::abs(gap));
     ++count;

@@ -13,31 +13,31 @@ namespace {
 using namespace test;
 
 // Core T (C), M (%), gas (kPa), face T, M at 15, 30, 60, 90, 120, 180, 240 s.
-struct Reference {
+struct UniformReference {
   int cells;
   std::array<std::array<double, 5>, 7> rows;
   double gas_peak, core_100, pf, pmdi;  // kPa, s; pf, pmdi: when the least cured cell has .9
   double mean_M, water, heat;           // %, kg and kJ per m^2 of half the mat
 };
-const std::array<double, 7> kTimes{15, 30, 60, 90, 120, 180, 240};
+const std::array<double, 7> kUniformTimes{15, 30, 60, 90, 120, 180, 240};
 
 Cycle uniform_cycle(int cells) {
   return press_hot(settings_of(Mechanics::kUniform, cells, .25, {"close to 12 mm in 25 s", "hold until 240 s"}),
                    poplar_mat());
 }
 
-class UniformCycle : public testing::TestWithParam<Reference> {};
+class UniformCycle : public testing::TestWithParam<UniformReference> {};
 
 TEST_P(UniformCycle, TemperatureMoistureGasAndCure) {
   const auto& p = GetParam();
   const auto cycle = uniform_cycle(p.cells);
   const std::array<double, 5> digit{1e-3, 1e-4, 1e-3, 1e-3, 1e-4};
-  for (std::size_t i = 0; i < kTimes.size(); ++i) {
-    const auto& now = at(cycle, kTimes[i]);
+  for (std::size_t i = 0; i < kUniformTimes.size(); ++i) {
+    const auto& now = at(cycle, kUniformTimes[i]);
     const std::array<double, 5> row{core(now).T, 100 * core(now).M, 1e-3 * core(now).gas, face(now).T,
                                     100 * face(now).M};
     for (std::size_t j = 0; j < row.size(); ++j)
-      EXPECT_NEAR(row[j], p.rows[i][j], .6 * digit[j]) << kTimes[i] << " " << j;
+      EXPECT_NEAR(row[j], p.rows[i][j], .6 * digit[j]) << kUniformTimes[i] << " " << j;
   }
   EXPECT_NEAR(core_gas(cycle).value, p.gas_peak, .0006);
   EXPECT_NEAR(core_gas(cycle).time, 108, .5);
@@ -57,51 +57,51 @@ TEST_P(UniformCycle, TemperatureMoistureGasAndCure) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cells, UniformCycle,
-                         testing::Values(Reference{20,
-                                                   {{{20.044, 5.0000, .530, 175.265, .8326},
-                                                     {29.022, 5.0019, 2.878, 183.361, .7170},
-                                                     {90.442, 5.1783, 8.180, 189.618, .6426},
-                                                     {123.128, 7.3044, 51.250, 192.707, .7818},
-                                                     {122.570, 8.0025, 57.792, 193.992, .7832},
-                                                     {122.197, 7.1872, 44.372, 195.412, .7022},
-                                                     {129.472, 4.8135, 34.481, 196.206, .6494}}},
-                                                   59.134,
-                                                   64.17,
-                                                   123.75,
-                                                   83.37,
-                                                   2.4942,
-                                                   .15157,
-                                                   908.22},
-                                         Reference{40,
-                                                   {{{20.034, 5.0000, .531, 184.933, .6558},
-                                                     {28.748, 5.0018, 2.884, 188.977, .6240},
-                                                     {89.677, 5.1632, 8.125, 193.118, .5890},
-                                                     {123.303, 7.2425, 51.282, 195.160, .7355},
-                                                     {122.654, 7.9724, 57.881, 196.012, .7452},
-                                                     {122.178, 7.1939, 44.372, 196.958, .6759},
-                                                     {129.449, 4.8175, 34.471, 197.486, .6293}}},
-                                                   59.241,
-                                                   64.49,
-                                                   123.79,
-                                                   83.52,
-                                                   2.4926,
-                                                   .15163,
-                                                   908.35},
-                                         Reference{80,
-                                                   {{{20.031, 5.0000, .531, 189.749, .5848},
-                                                     {28.633, 5.0018, 2.886, 191.782, .5826},
-                                                     {89.312, 5.1581, 8.098, 194.870, .5640},
-                                                     {123.382, 7.2141, 51.291, 196.390, .7135},
-                                                     {122.699, 7.9566, 57.926, 197.025, .7270},
-                                                     {122.183, 7.1923, 44.372, 197.732, .6632},
-                                                     {129.448, 4.8175, 34.465, 198.126, .6195}}},
-                                                   59.293,
-                                                   64.65,
-                                                   123.78,
-                                                   83.61,
-                                                   2.4918,
-                                                   .15166,
-                                                   908.40}));
+                         testing::Values(UniformReference{20,
+                                                          {{{20.044, 5.0000, .530, 175.265, .8326},
+                                                            {29.022, 5.0019, 2.878, 183.361, .7170},
+                                                            {90.442, 5.1783, 8.180, 189.618, .6426},
+                                                            {123.128, 7.3044, 51.250, 192.707, .7818},
+                                                            {122.570, 8.0025, 57.792, 193.992, .7832},
+                                                            {122.197, 7.1872, 44.372, 195.412, .7022},
+                                                            {129.472, 4.8135, 34.481, 196.206, .6494}}},
+                                                          59.134,
+                                                          64.17,
+                                                          123.75,
+                                                          83.37,
+                                                          2.4942,
+                                                          .15157,
+                                                          908.22},
+                                         UniformReference{40,
+                                                          {{{20.034, 5.0000, .531, 184.933, .6558},
+                                                            {28.748, 5.0018, 2.884, 188.977, .6240},
+                                                            {89.677, 5.1632, 8.125, 193.118, .5890},
+                                                            {123.303, 7.2425, 51.282, 195.160, .7355},
+                                                            {122.654, 7.9724, 57.881, 196.012, .7452},
+                                                            {122.178, 7.1939, 44.372, 196.958, .6759},
+                                                            {129.449, 4.8175, 34.471, 197.486, .6293}}},
+                                                          59.241,
+                                                          64.49,
+                                                          123.79,
+                                                          83.52,
+                                                          2.4926,
+                                                          .15163,
+                                                          908.35},
+                                         UniformReference{80,
+                                                          {{{20.031, 5.0000, .531, 189.749, .5848},
+                                                            {28.633, 5.0018, 2.886, 191.782, .5826},
+                                                            {89.312, 5.1581, 8.098, 194.870, .5640},
+                                                            {123.382, 7.2141, 51.291, 196.390, .7135},
+                                                            {122.699, 7.9566, 57.926, 197.025, .7270},
+                                                            {122.183, 7.1923, 44.372, 197.732, .6632},
+                                                            {129.448, 4.8175, 34.465, 198.126, .6195}}},
+                                                          59.293,
+                                                          64.65,
+                                                          123.78,
+                                                          83.61,
+                                                          2.4918,
+                                                          .15166,
+                                                          908.40}));
 
 // Cure of the least cured cell; it is not the core's but that of the wet layer beside it, which is cooler for a while.
 TEST(UniformCycle, LeastCure) {

@@ -42,17 +42,17 @@ Panel<2> slice() {
   return make_panel(mat::form(layup, 3), {{"surface", wood, 0}, {"core", wood, 90}}, 0.8 / 6, 6);
 }
 
-struct Pressed {
+struct PressedBy {
   Panel<2> panel;
   std::vector<press::Record> records;
 };
 
-Pressed press_on(const std::string& set, const Panel<2>& panel, double compaction) {
+PressedBy press_on(const std::string& set, const Panel<2>& panel, double compaction) {
   const test::EnvironmentVariable variable(mpm::kInstructionSetVariable, set.c_str());
   press::Schedule schedule;
   schedule.compactions = {compaction};
   schedule.record_interval_compaction = 0.005;
-  Pressed pressed;
+  PressedBy pressed;
   press::Sink<2> sink;
   sink.snapshot = [&](const Panel<2>& state, int) { pressed.panel = state; };
   pressed.records =
@@ -61,10 +61,10 @@ Pressed press_on(const std::string& set, const Panel<2>& panel, double compactio
 }
 
 void expect_one_program(const std::string& what, const Panel<2>& panel, double compaction) {
-  const Pressed reference = press_on("generic", panel, compaction);
+  const PressedBy reference = press_on("generic", panel, compaction);
   for (const auto& set : mpm::instruction_sets()) {
     if (set == "generic") continue;
-    const Pressed other = press_on(set, panel, compaction);
+    const PressedBy other = press_on(set, panel, compaction);
     ASSERT_EQ(other.records.size(), reference.records.size());
     double moved = 0, stress = 0, largest = 0;
     for (std::size_t s = 0; s < panel.strands.size(); ++s) {

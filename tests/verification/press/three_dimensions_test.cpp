@@ -60,16 +60,16 @@ press::Setup<Dim> setup_of(const Panel<Dim>& panel) {
 }
 
 template <int Dim>
-struct Pressed {
+struct PressedBox {
   std::vector<mpm::Body<Dim>> bodies;
   std::vector<double> top_force;  // N per mm of depth, per step
   mpm::Energies energies;
 };
 
 template <int Dim>
-Pressed<Dim> press_steps(int steps) {
+PressedBox<Dim> press_steps(int steps) {
   const Panel<Dim> panel = mat<Dim>();
-  Pressed<Dim> result;
+  PressedBox<Dim> result;
   for (const auto& s : panel.strands) result.bodies.push_back(mpm::body_of(s));
   const auto setup = setup_of(panel);
   mpm::Engine<Dim> engine(result.bodies, setup.grid, setup.engine);
