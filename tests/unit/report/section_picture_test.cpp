@@ -10,14 +10,9 @@
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/report/colour_map.hpp"
+#include "support/fontconfig_leaks.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_panel.hpp"
-
-// For the leak checker of the debug build: fontconfig keeps its caches to the end of the program.
-extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libfontconfig";
-}  // NOLINT(bugprone-reserved-identifier)
 
 namespace strandlab::report {
 namespace {

@@ -13,6 +13,7 @@
 
 #include "strandlab/run/press.hpp"
 #include "strandlab/run/record.hpp"
+#include "support/fontconfig_leaks.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace strandlab::run {
