@@ -275,9 +275,10 @@ std::string as_given(const toml::node& node) {
   return text.str();
 }
 
+// Minus zero is zero: the resolved case would say -0, which is a whole number and read back as 0.
 std::optional<double> number(const toml::node& node) {
   if (!node.is_integer() && !node.is_floating_point()) return std::nullopt;
-  return node.value<double>();
+  return *node.value<double>() + 0.0;
 }
 
 // The node as a value of the same type as `like`; nothing where the types differ.

@@ -29,6 +29,14 @@ TEST(CaseWrite, TextsWithQuotesAndControlCharactersReadBack) {
   EXPECT_EQ(case_from_text(resolved_text(c), "resolved.toml").mat_file, c.mat_file);
 }
 
+// "-0" is a whole number in TOML, and reads back as 0.
+TEST(CaseWrite, MinusZeroIsZero) {
+  const auto c = case_from_text("", "panel.toml", {"kinds.core.angle_deg=-0.0", "press.compactions=[-0.0, 0.4]"});
+  const auto text = resolved_text(c);
+  EXPECT_EQ(text.find(" -0\n"), std::string::npos);
+  EXPECT_EQ(resolved_text(case_from_text(text, "resolved.toml")), text);
+}
+
 TEST(CaseWrite, CommentedCasesReadBackToTheReadyCases) {
   for (const auto& name : ready_cases()) {
     const auto c = ready_case(name);
