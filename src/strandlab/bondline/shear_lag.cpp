@@ -14,7 +14,6 @@
 namespace strandlab::bondline {
 namespace {
 
-
 double square(double x) {
   return x * x;
 }
