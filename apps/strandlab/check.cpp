@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 
 #include "case_arguments.hpp"
@@ -16,18 +15,6 @@
 
 namespace strandlab::app {
 namespace {
-
-// A short mat cuts most of its longest strands: its moduli scatter between seeds more than those of a panel.
-void tell_short_mat(const cases::Case& c, const mat::Mat& mat) {
-  constexpr double kFewStrands = 3;
-  double longest = 0;
-  for (const auto& row : cases::layup(c).rows) longest = std::max(longest, row.statistics.length_mm);
-  if (!c.mat_file.empty() || mat.length_mm >= kFewStrands * longest) return;
-  print(
-      "# the mat is {:.2g} strand lengths long ({:g} mm): moduli scatter between seeds; take several, or a mat of {:g} "
-      "mm\n",
-      mat.length_mm / longest, longest, kFewStrands * longest);
-}
 
 // As comments, so that the output is a case file again.
 void check(const CaseArguments& arguments) {
@@ -44,13 +31,13 @@ void check(const CaseArguments& arguments) {
         "# from mat.file: the sizes and rows of this mat count, not mat.length_mm, mat.layer_thickness_mm, "
         "mat.rows\n");
   }
-  tell_short_mat(c, mat);
+  if (const auto remark = run::remark_on_length(formed)) print("# {}\n", *remark);
   for (const auto& line : run::composition(cases::weigh(c, mat))) print("# {}\n", line);
   for (const auto& line : cases::derived_constants(c)) print("# {}\n", line);
   print("# as formed: {:.1f} kg/m3\n", cases::density_kg_m3(c, mat, 0));
-  for (const double compaction : c.schedule.compactions)
-    print("# kept at compaction {}: {:.2f} mm, {:.1f} kg/m3\n", compaction, mat.thickness_mm() * (1 - compaction),
-          cases::density_kg_m3(c, mat, compaction));
+  for (const auto& state : run::kept_states(formed))
+    print("# kept at compaction {}: {:.2f} mm, {:.1f} kg/m3\n", state.compaction, state.thickness_mm,
+          state.density_kg_m3);
   print("# particles: {}\n# cells: {} of {:.4g} x {:.4g} mm\n", e.particles, e.cells, e.cell_length_mm,
         e.cell_height_mm);
   print("# steps: {:.0f} of {:.3g} s, {:.3g} ms of pressing\n", e.steps, e.time_step_s, 1e3 * e.pressing_time_s);

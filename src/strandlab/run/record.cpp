@@ -38,10 +38,10 @@ Json machine() {
 // The states at which the panel is kept, as they were solved for this mat.
 Json states_of(const Formed& formed) {
   auto list = Json::array();
-  for (const double compaction : formed.c.schedule.compactions)
-    list.push_back({{"compaction", compaction},
-                    {"thickness_mm", formed.mat.thickness_mm() * (1 - compaction)},
-                    {"density_kg_m3", cases::density_kg_m3(formed.c, formed.mat, compaction)}});
+  for (const auto& state : kept_states(formed))
+    list.push_back({{"compaction", state.compaction},
+                    {"thickness_mm", state.thickness_mm},
+                    {"density_kg_m3", state.density_kg_m3}});
   return list;
 }
 

@@ -16,7 +16,7 @@
 namespace strandlab::vtest {
 namespace {
 
-constexpr double kFewFolded = 1e-3;    // of the elements: corners of single strands
+constexpr double kFewFolded = 1e-3;    // of the elements: corners of single strands; judgement
 constexpr double kRoundOff = 1e-9;     // of lengths
 constexpr double kShortestSpan = 8;    // thicknesses: room for loads at thirds and for half the span
 constexpr double kSoftestGlue = 1e-3;  // MPa/mm: below this strands slide freely and the stiffness matrix is singular
