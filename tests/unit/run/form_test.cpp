@@ -1,0 +1,35 @@
+// What is formed: the states of its mat, and what is said of its length.
+#include "strandlab/run/form.hpp"
+
+#include <gtest/gtest.h>
+
+namespace strandlab::run {
+namespace {
+
+// Default strands: 150 mm along, so that three of them take 450 mm.
+TEST(Formed, IsRemarkedOnWhereShorterThanThreeStrands) {
+  const auto with_length = [](const char* length) {
+    return remark_on_length(form(cases::case_from_text("", "panel.toml", {std::string("mat.length_mm=") + length})));
+  };
+  const auto remark = with_length("100");
+  ASSERT_TRUE(remark.has_value());
+  EXPECT_EQ(*remark,
+            "the mat is 0.67 strand lengths long (100 mm): moduli scatter between seeds; take several, or a mat of "
+            "450 mm");
+  EXPECT_FALSE(with_length("450").has_value());
+}
+
+// Density times thickness is the mat's weight, whatever the state; the density asked for is met to 1e-4 of compaction.
+TEST(Formed, HasItsStatesByWeight) {
+  const auto formed = form(cases::case_from_text("", "panel.toml", {"press.densities_kg_m3=[400, 640]"}));
+  const double weight = cases::weigh(formed.c, formed.mat).kg_per_m2;
+  const auto states = kept_states(formed);
+  ASSERT_EQ(states.size(), 2);
+  EXPECT_EQ(states[1].compaction, formed.c.schedule.compactions[1]);
+  for (const auto& state : states) EXPECT_NEAR(1e-3 * state.density_kg_m3 * state.thickness_mm, weight, 1e-12 * weight);
+  EXPECT_NEAR(states[0].density_kg_m3, 400, 0.04);
+  EXPECT_NEAR(states[1].density_kg_m3, 640, 0.1);
+}
+
+}  // namespace
+}  // namespace strandlab::run
