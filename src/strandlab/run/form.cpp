@@ -34,9 +34,10 @@ std::optional<std::string> remark_on_length(const Formed& formed) {
   const double length = formed.mat.length_mm;
   if (length >= kFewStrands * longest) return std::nullopt;
   return fmt::format(
-      "the mat is {:.2g} strand lengths long ({:g} mm): moduli scatter between seeds; take several, or a mat of {:g} "
-      "mm",
-      length / longest, longest, kFewStrands * longest);
+      "the mat is {:g} mm long, {:.2g} lengths of its longest strands: moduli scatter between seeds; take several, or "
+      "a "
+      "mat of {:g} mm",
+      length, length / longest, kFewStrands * longest);
 }
 
 void refuse_untestable(const Formed& formed) {

@@ -13,9 +13,10 @@ TEST(Formed, IsRemarkedOnWhereShorterThanThreeStrands) {
   };
   const auto remark = with_length("100");
   ASSERT_TRUE(remark.has_value());
-  EXPECT_EQ(*remark,
-            "the mat is 0.67 strand lengths long (100 mm): moduli scatter between seeds; take several, or a mat of "
-            "450 mm");
+  EXPECT_EQ(
+      *remark,
+      "the mat is 100 mm long, 0.67 lengths of its longest strands: moduli scatter between seeds; take several, or a "
+      "mat of 450 mm");
   EXPECT_FALSE(with_length("450").has_value());
 }
 
