@@ -431,6 +431,14 @@ void apply(Case& c, const Given& given) {
   key->set(c, name, *value);
 }
 
+// Instances stand in the order of their names, wherever they were first mentioned: a resolved case, which has them all
+// in one file, reads back as itself. `first` is the place of the first that was not always there.
+template <class Item, class NameOf>
+void insert_by_name(std::vector<Item>& items, std::size_t first, const Item& item, NameOf name_of_item) {
+  const auto later = [&](const Item& other) { return name_of_item(other) > name_of_item(item); };
+  items.insert(std::find_if(items.begin() + static_cast<std::ptrdiff_t>(first), items.end(), later), item);
+}
+
 // [kinds.NAME], [materials.NAME], [resins.NAME] and [hotpress] come to be when they are first mentioned.
 void make_instance(Case& c, const Given& given) {
   if (given.path[0] == "hotpress") c.hotpress.given = true;
@@ -451,7 +459,8 @@ void make_instance(Case& c, const Given& given) {
   if (section == "kinds.*") {
     KindSettings kind;
     kind.name = name;
-    c.kinds.push_back(kind);
+    insert_by_name(
+        c.kinds, Case().kinds.size(), kind, [](const auto& k) -> const auto& { return k.name; });
     return;
   }
   if (section == "resins.*") {
@@ -460,7 +469,8 @@ void make_instance(Case& c, const Given& given) {
         throw InputError(
             fmt::format("{}: [resins.{}]: a built-in resin has this name, choose another", given.where, name));
     }
-    c.resins.push_back({name});
+    insert_by_name(
+        c.resins, 0, {name}, [](const auto& r) -> const auto& { return r.name; });
     return;
   }
   for (const auto& built_in : wood::library()) {
@@ -473,7 +483,8 @@ void make_instance(Case& c, const Given& given) {
   settings.material = wood::library().front();
   settings.base = settings.material.name;
   settings.material.name = name;
-  c.materials.push_back(settings);
+  insert_by_name(
+      c.materials, 0, settings, [](const auto& m) -> const auto& { return m.material.name; });
 }
 
 // ---- Rules between keys ---------------------------------------------------------------------------------------------

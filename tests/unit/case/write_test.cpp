@@ -37,6 +37,18 @@ TEST(CaseWrite, MinusZeroIsZero) {
   EXPECT_EQ(resolved_text(case_from_text(text, "resolved.toml")), text);
 }
 
+// An override names a material after those of the file; in the resolved file they stand side by side.
+TEST(CaseWrite, InstancesStandInTheOrderOfTheirNames) {
+  const auto c = case_from_text("[materials.b]\n", "panel.toml",
+                                {"materials.a={}", "resins.d={}", "resins.c={}", "kinds.f={}", "kinds.e={}",
+                                 "mat.rows=[\"core\", \"e\", \"f\"]"});
+  EXPECT_EQ(instances(c, "materials.*"), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(instances(c, "resins.*"), (std::vector<std::string>{"c", "d"}));
+  EXPECT_EQ(instances(c, "kinds.*"), (std::vector<std::string>{"surface", "core", "e", "f"}));
+  const auto text = resolved_text(c);
+  EXPECT_EQ(resolved_text(case_from_text(text, "resolved.toml")), text);
+}
+
 TEST(CaseWrite, CommentedCasesReadBackToTheReadyCases) {
   for (const auto& name : ready_cases()) {
     const auto c = ready_case(name);
