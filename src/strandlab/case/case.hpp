@@ -82,6 +82,9 @@ struct Case {
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 // The same from the text of a case; `source` stands for the file in messages.
 Case case_from_text(const std::string& text, const std::string& source, const std::vector<std::string>& overrides = {});
+// The case with some keys changed, "key.path=value" each, checked together as a case that is read; `source` opens
+// messages. Throws as above.
+Case changed(const Case& c, const std::vector<std::string>& assignments, const std::string& source);
 
 // Ready cases of `strandlab init`: "osb", "osl", "plywood", "lvl", ... Throws InputError for another name.
 const std::vector<std::string>& ready_cases();

@@ -15,6 +15,7 @@
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/case/case.hpp"
 #include "strandlab/case/keys.hpp"
+#include "strandlab/case/write.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/core/text.hpp"
@@ -37,7 +38,7 @@ struct Given {
 struct Source {
   toml::table table;
   std::string name;  // of the file, or "--set ..."
-  bool has_lines = false;
+  bool in_file = false, has_lines = false;
   fs::path folder;  // relative file names count from here
 };
 
@@ -112,9 +113,10 @@ std::string complete_numbers(const std::string& value) {
   return result;
 }
 
-Source parse_override(const std::string& text) {
+// One "key.path=value"; `name` opens messages.
+Source parse_override(const std::string& text, std::string name) {
   Source source;
-  source.name = "--set " + shortened(text);
+  source.name = std::move(name);
   if (!is_utf8(text) || text.find('\0') != std::string::npos)
     throw InputError(fmt::format("{}: holds bytes that are no text in UTF-8", printable(source.name)));
   source.folder = fs::current_path();
@@ -231,7 +233,7 @@ std::string nearest_key(const Path& path, const std::vector<std::string>& same_s
 
 void flatten(const Source& source, const toml::table& table, const Path& prefix, std::vector<Given>& out) {
   for (auto&& [key, node] : table) {
-    Given given{prefix, &node, source.name, source.has_lines};
+    Given given{prefix, &node, source.name, source.in_file};
     given.path.emplace_back(key.str());
     if (source.has_lines) given.where += fmt::format(":{}", node.source().begin.line);
     const bool known = find_key(given.path) != nullptr;
@@ -678,7 +680,7 @@ Case case_from_sources(Case c, const std::vector<Source>& sources) {
 std::vector<Source> with_overrides(Source file, const std::vector<std::string>& overrides) {
   std::vector<Source> sources;
   sources.push_back(std::move(file));
-  for (const auto& text : overrides) sources.push_back(parse_override(text));
+  for (const auto& text : overrides) sources.push_back(parse_override(text, "--set " + shortened(text)));
   return sources;
 }
 
@@ -704,7 +706,8 @@ std::string read_text(const fs::path& file) {
 }  // namespace
 
 Case read_case(const fs::path& file, const std::vector<std::string>& overrides) {
-  Source source{parse_toml(read_text(file), file.string()), file.string(), true, fs::absolute(file).parent_path()};
+  Source source{parse_toml(read_text(file), file.string()), file.string(), true, true,
+                fs::absolute(file).parent_path()};
   Case c;
   c.name = file.stem().string();
   c = case_from_sources(std::move(c), with_overrides(std::move(source), overrides));
@@ -713,8 +716,21 @@ Case read_case(const fs::path& file, const std::vector<std::string>& overrides) 
 }
 
 Case case_from_text(const std::string& text, const std::string& source, const std::vector<std::string>& overrides) {
-  return case_from_sources(Case(),
-                           with_overrides({parse_toml(text, source), source, true, fs::current_path()}, overrides));
+  return case_from_sources(
+      Case(), with_overrides({parse_toml(text, source), source, true, true, fs::current_path()}, overrides));
+}
+
+Case changed(const Case& c, const std::vector<std::string>& assignments, const std::string& source) {
+  std::vector<Source> sources{{parse_toml(resolved_text(c), source), source, true, false, fs::current_path()}};
+  for (const auto& text : assignments) sources.push_back(parse_override(text, source));
+  Case start;
+  start.name = c.name;
+  auto result = case_from_sources(std::move(start), sources);
+  if (result.bondline_file == c.bondline_file && result.bondline_group == c.bondline_group) return result;
+  if (result.test.compliance_t_mm_per_MPa == c.test.compliance_t_mm_per_MPa)  // that of the result before, if any
+    result.test.compliance_t_mm_per_MPa = Case().test.compliance_t_mm_per_MPa;
+  use_bondline(result, source);
+  return result;
 }
 
 }  // namespace strandlab::cases

@@ -23,6 +23,7 @@ class CsvTable {
 
   const std::vector<std::string>& columns() const { return columns_; }
   std::size_t rows() const { return rows_.size(); }
+  const std::vector<CsvCell>& row(std::size_t number) const { return rows_[number]; }
   std::string text() const;  // header and rows, each line ended by \n
 
   // Replaces `file` atomically; throws as write_atomically().

@@ -37,6 +37,23 @@ TEST(CaseWrite, MinusZeroIsZero) {
   EXPECT_EQ(resolved_text(case_from_text(text, "resolved.toml")), text);
 }
 
+TEST(CaseWrite, AChangedCaseIsCheckedAsAWhole) {
+  auto c = case_from_text("[kinds.core]\nangle_deg = 80\n[press]\ndensities_kg_m3 = [500]\n", "panel.toml");
+  c.name = "panel";
+  const auto other = changed(c, {"press.compactions=[0, .2]", "run.seed=3"}, "script");
+  EXPECT_EQ(other.name, "panel");
+  EXPECT_EQ(other.states.compactions, (std::vector<double>{0, 0.2}));
+  EXPECT_TRUE(other.states.densities_kg_m3.empty());
+  EXPECT_EQ(other.kinds[1].angle_deg, 80);
+  EXPECT_EQ(resolved_text(changed(other, {"press.densities_kg_m3=[500]", "run.seed=1"}, "script")), resolved_text(c));
+  try {
+    changed(c, {"kinds.core.length_mm=1"}, "script");
+    FAIL() << "the standard deviation exceeds the mean";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(std::string(e.what()).substr(0, 33).c_str(), "script: kinds.core.length_sd_mm =");
+  }
+}
+
 // An override names a material after those of the file; in the resolved file they stand side by side.
 TEST(CaseWrite, InstancesStandInTheOrderOfTheirNames) {
   const auto c = case_from_text("[materials.b]\n", "panel.toml",
