@@ -20,5 +20,6 @@ void add_profile(CLI::App& app);
 void add_report(CLI::App& app);
 void add_movie(CLI::App& app);
 void add_bench(CLI::App& app);
+void add_doctor(CLI::App& app);
 
 }  // namespace strandlab::app

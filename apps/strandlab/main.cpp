@@ -80,6 +80,7 @@ int run(int argc, char** argv) {
   strandlab::app::add_hotpress(app);
   strandlab::app::add_profile(app);
   strandlab::app::add_bench(app);
+  strandlab::app::add_doctor(app);
   if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);
   strandlab::mpm::instruction_set();  // STRANDLAB_ISA is refused before any file is written
   try {

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "strandlab/files/text_file.hpp"
 #include "strandlab/report/section_picture.hpp"
 #include "strandlab/run/folder.hpp"
+#include "strandlab/run/installed.hpp"
 #include "strandlab/run/page.hpp"
 
 namespace strandlab::run {
@@ -44,16 +44,6 @@ class ScratchFolder {
  private:
   fs::path path_;
 };
-
-// Whether a program of this name is on the PATH.
-bool is_installed(const std::string& program) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path != nullptr ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    if (::access((fs::path(folder) / program).c_str(), X_OK) == 0) return true;
-  }
-  return false;
-}
 
 // Runs ffmpeg with its complaints in `log`. Throws RunError, with the end of them, when it fails.
 void run_ffmpeg(std::vector<std::string> arguments, const fs::path& log) {
@@ -87,7 +77,7 @@ void check(const fs::path& out, const FilmOptions& options) {
   if (!(options.frames_per_s >= 0.5 && options.frames_per_s <= 60)) {
     throw InputError(fmt::format("--fps {}: 0.5 to 60 frames a second are possible", options.frames_per_s));
   }
-  if (!is_installed("ffmpeg")) {
+  if (!installed("ffmpeg")) {
     throw InputError(
         "ffmpeg is not installed and makes the film: on Debian, apt-get install ffmpeg. The pictures of each "
         "compaction are in the run folder without it, and report.html plays the pressing");
