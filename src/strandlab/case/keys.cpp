@@ -10,19 +10,16 @@
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
+#include "strandlab/wood/laws/law.hpp"
 #include "strandlab/wood/species.hpp"
 
 namespace strandlab::cases {
 namespace {
 
-const Range kAny{};
-const Range kPositive{.lo = 0, .lo_open = true};
-const Range kNotNegative{.lo = 0};
 const Range kSize{.lo = mat::kSmallestSize_mm, .hi = mat::kLargestSize_mm};
 const Range kSizeOrZero{.lo = mat::kSmallestSize_mm, .hi = mat::kLargestSize_mm, .zero = true};
 const Range kGap{.lo = 0, .hi = mat::kLargestSize_mm};
 const Range kSoftening{.lo = 0, .hi = 1, .lo_open = true};
-const Range kPositiveOrInfinite{.lo = 0, .lo_open = true, .infinite = true};
 constexpr double kDensest_kg_m3 = 1500;  // wood without pores
 
 // Between the members of Case and the value types of TOML.
@@ -102,6 +99,22 @@ Key key(std::string path, std::string unit, Range range, std::string help, At at
   return make_key(
       std::move(path), std::move(unit), range,
       std::move(help), [at](auto& c, const std::string&) -> auto& { return at(c); });
+}
+
+// The key of an option that a room declares; `part_of(case, name)` refers to the struct that holds it.
+template <class Part, class PartOf>
+Key option_key(const std::string& section, const Declaration<Part>& option, PartOf part_of) {
+  Key key;
+  key.path = section + "." + option.name;
+  key.unit = option.unit;
+  key.range = option.range;
+  key.help = option.help;
+  key.get = [part_of, get = option.get](const Case& c, const std::string& name) { return get(part_of(c, name)); };
+  key.set = [part_of, set = option.set](Case& c, const std::string& name, const Value& value) {
+    set(part_of(c, name), value);
+  };
+  if (!option.choices.empty()) key.choices = [choices = option.choices](const Case&) { return choices; };
+  return key;
 }
 
 template <class Items, class NameOf>
@@ -266,9 +279,7 @@ void add_kind_keys(std::vector<Key>& t) {
                                "how the strands yield: hill (no change of volume) or crushing (cells collapse); see "
                                "docs/crushing.md",
                                [](auto& k) -> auto& { return k.law; }),
-                           [](const Case&) -> std::vector<std::string> {
-                             return {wood::name(wood::Law::kHill), wood::name(wood::Law::kCrushing)};
-                           }));
+                           [](const Case&) { return wood::law_names(); }));
 }
 
 // A positive constant of wood in MPa (or kg/m^3, or no unit).
@@ -278,28 +289,14 @@ Key constant(const std::string& name, const std::string& unit, Range range, std:
       name, unit, range, std::move(help), [member](auto& m) -> auto& { return m.material.*member; });
 }
 
-Key crushing_constant(const std::string& name, const std::string& unit, Range range, const std::string& help,
-                      double wood::Crushing::*member) {
-  return material_key(
-      "crushing_" + name, unit, range,
-      "kinds with law = \"crushing\": " + help, [member](auto& m) -> auto& { return m.material.crushing.*member; });
-}
-
-void add_crushing_keys(std::vector<Key>& t) {
-  using C = wood::Crushing;
-  t.push_back(crushing_constant("Y_L_MPa", "MPa", kPositiveOrInfinite, "yield stress along the grain", &C::Y_L));
-  t.push_back(crushing_constant("Y_R_MPa", "MPa", kPositiveOrInfinite, "yield stress, radial", &C::Y_R));
-  t.push_back(crushing_constant("Y_T_MPa", "MPa", kPositiveOrInfinite, "yield stress, tangential", &C::Y_T));
-  t.push_back(crushing_constant("S_RT_MPa", "MPa", kPositiveOrInfinite, "yield stress in rolling shear", &C::S_RT));
-  t.push_back(crushing_constant("S_RL_MPa", "MPa", kPositiveOrInfinite, "yield stress in RL shear", &C::S_RL));
-  t.push_back(crushing_constant("S_TL_MPa", "MPa", kPositiveOrInfinite, "yield stress in TL shear", &C::S_TL));
-  t.push_back(crushing_constant("c", "", {.lo = -1, .hi = 1},
-                                "plastic Poisson ratio; 0: no lateral flow, 1: no change of volume", &C::c));
-  t.push_back(crushing_constant("h1", "", kNotNegative, "yield at 1 + h1 x + h2 (x/(x_L - x))^m", &C::h1));
-  t.push_back(crushing_constant("h2", "", kNotNegative, "see h1; x_L = 1 - density uncrushed/1500", &C::h2));
-  t.push_back(crushing_constant("m", "", {.lo = 1}, "see h1", &C::exponent));
-  t.push_back(crushing_constant("start", "", {.lo = 0, .hi = 1, .hi_open = true},
-                                "collapsed part x of the volume as formed (densified wood)", &C::start));
+// Constants of the laws of yielding, as these declare them.
+void add_law_keys(std::vector<Key>& t) {
+  const auto material = [](auto& c, const std::string& name) -> auto& {
+    return find_named(c.materials, name, [](const MaterialSettings& m) { return m.material.name; }).material;
+  };
+  wood::for_each_law([&]<class L>() {
+    for (const auto& constant : L::description().constants) t.push_back(option_key("materials.*", constant, material));
+  });
 }
 
 void add_material_keys(std::vector<Key>& t) {
@@ -316,16 +313,7 @@ void add_material_keys(std::vector<Key>& t) {
   t.push_back(constant("nu_RL", "", kAny, "Poisson's ratio -eps_L/eps_R under load along R", &M::nu_RL));
   t.push_back(constant("nu_TL", "", kAny, "Poisson's ratio -eps_L/eps_T under load along T", &M::nu_TL));
   t.push_back(constant("nu_TR", "", kAny, "Poisson's ratio -eps_R/eps_T under load along T", &M::nu_TR));
-  t.push_back(constant("Y_L_MPa", "MPa", kPositiveOrInfinite, "yield stress along the grain", &M::Y_L));
-  t.push_back(constant("Y_R_MPa", "MPa", kPositive, "yield stress, radial", &M::Y_R));
-  t.push_back(constant("Y_T_MPa", "MPa", kPositive, "yield stress, tangential", &M::Y_T));
-  t.push_back(constant("S_RT_MPa", "MPa", kPositiveOrInfinite, "yield stress in rolling shear", &M::S_RT));
-  t.push_back(constant("S_RL_MPa", "MPa", kPositiveOrInfinite, "yield stress in RL shear", &M::S_RL));
-  t.push_back(constant("S_TL_MPa", "MPa", kPositiveOrInfinite, "yield stress in TL shear", &M::S_TL));
-  t.push_back(
-      constant("hardening_K_MPa", "MPa", kNotNegative, "hardening: yield at 1 + (K/Y_R) alpha^n", &M::hardening_K));
-  t.push_back(constant("hardening_n", "", {.lo = 1}, "exponent of the hardening", &M::hardening_n));
-  add_crushing_keys(t);
+  add_law_keys(t);
 }
 
 void add_press_keys(std::vector<Key>& t) {
