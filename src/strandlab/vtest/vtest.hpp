@@ -75,11 +75,12 @@ void check_ends(const Panel<2>& mat, double compaction);
 // Moduli of the panel, frozen as it lies between the platens: small strain, linear, plane strain, material axes as
 // pressed; locked-in stress, geometric stiffness and springback are ignored.
 // Strands that free sides let beyond the end planes x = 0 and x = L are cut there, with a warning.
-// What is done to it and how its modulus follows is said in the file of each test (kinds/),
-// with U the energy of wood and glue lines, h the platen gap and I = b h^3/12. Throws InputError for options it cannot
-// use, for a panel of which no strands connect both ends, and for one shorter than needed_length_mm() or in parts that
-// no glue connects where it is bent on supports; RunError for an inverted element. `before_solve`, where given, is
-// called before each solution of the equations; what it throws ends the tests and passes through.
+// The file of each test (kinds/) says how it holds and loads the panel and how the modulus follows, with U the energy
+// of wood and glue lines, h the platen gap, I = b h^3/12 and w the deflection of the cross section at midspan against
+// those over the supports. Throws InputError for options it cannot use, for a panel of which no strands connect both
+// ends, and for one shorter than needed_length_mm() or in parts that no glue connects where it is bent on supports;
+// RunError for an inverted element. `before_solve`, where given, is called before each solution of the equations; what
+// it throws ends the tests and passes through.
 Result measure(const Panel<2>& panel, const Options& options, const std::function<void()>& before_solve = nullptr);
 
 // Length that a panel of this thickness must have for the tests asked for: 3- and 4-point bending need the span and one
