@@ -20,13 +20,13 @@ constexpr double kStep = 2e-4;
 
 // A point of a strand, deformed through its thickness.
 struct Point {
+  wood::Law law;
   wood::YieldModes<4> modes;
   Stress tau = Stress::Zero();
   double ln_J = 0, history = 0, radius = 1;
 
-  explicit Point(const wood::Material& material) : modes(wood::yield_modes<4>(wood::in_strand_axes(material, 0))) {}
-  bool crushes() const { return modes.crushing.limit > 0; }
-
+  explicit Point(const wood::Material& material)
+      : law(material.law), modes(wood::yield_modes<4>(wood::in_strand_axes(material, 0))) {}
   void advance(const Stress& strain) {
     ln_J += strain.head<3>().sum();
     const double J = std::exp(ln_J);
@@ -35,11 +35,7 @@ struct Point {
       t[i] = tau[i];
       for (int j = 0; j < 4; ++j) t[i] += modes.stiffness[i][j] * strain[j];
     }
-    if (crushes()) {
-      wood::return_map<wood::CrushingLaw, wood::ScalarOps, 4>(modes, t, J, history, radius);
-    } else {
-      wood::return_map<wood::HillLaw, wood::ScalarOps, 4>(modes, t, J, history, radius);
-    }
+    wood::with_law(law, [&]<class L>() { wood::return_map<L, wood::ScalarOps, 4>(modes, t, J, history, radius); });
     for (int i = 0; i < 4; ++i) tau[i] = t[i];
   }
 

@@ -54,7 +54,7 @@ int main() {
   for (const double angle : {0.0, 30.0}) {
     for (const double strain : {1e-5, 1e-4}) {
       wood::Material wood = wood::library()[0], crushes = wood, elastic = wood;
-      elastic.Y_R = elastic.Y_T = elastic.S_RT = 1e6;  // MPa: never reached
+      elastic.hill.Y_R = elastic.hill.Y_T = elastic.hill.S_RT = 1e6;  // MPa: never reached
       crushes.law = wood::Law::kCrushing;
       double none = 0, all = 0, crushed = 0;
       const double e = cost(elastic, angle, strain, none), h = cost(wood, angle, strain, all),

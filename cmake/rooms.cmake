@@ -20,11 +20,12 @@ if(STRANDLAB_FUZZ)  # every room counts its branches, for the fuzzers to find ne
   target_compile_options(strandlab_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# strandlab_room(name LINKS public... PRIVATE_LINKS private...): one library from src/strandlab/<name>/*.cpp, installed as
+# strandlab_room(name LINKS public... PRIVATE_LINKS private...): one library from src/strandlab/<name>/ and its folders, installed as
 # strandlab::<name>
 function(strandlab_room name)
   cmake_parse_arguments(ARG "" "" "LINKS;PRIVATE_LINKS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/strandlab/${name}/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/strandlab/${name}/*.cpp
+       ${PROJECT_SOURCE_DIR}/src/strandlab/${name}/*/*.cpp)
   if(sources)
     list(FILTER sources EXCLUDE REGEX "/mpm/kernels\\.cpp$")  # see strandlab_kernel_builds
     add_library(strandlab_${name} STATIC ${sources})

@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "strandlab/case/case.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/glue/bond.hpp"
 #include "strandlab/report/estimates.hpp"
 #include "strandlab/run/theory_rows.hpp"
 #include "strandlab/theory/estimate.hpp"
@@ -33,7 +34,7 @@ theory::Question question_of(const TheoryArguments& a) {
   q.rows = run::theory_rows(c, mat);
   q.compactions = a.compactions.empty() ? c.schedule.compactions : a.compactions;
   q.compliances_t = a.compliances.empty() ? c.test.compliance_t_mm_per_MPa : a.compliances;
-  for (double& compliance : q.compliances_t) compliance = std::max(compliance, 0.0);  // as the virtual tests take it
+  for (double& compliance : q.compliances_t) compliance = glue::taken(compliance);
   // Of a case the moduli that its virtual tests are drawn beside; without one those of free bars, as published.
   const auto by_default = a.file.empty() ? wood::OffAxis::kUncoupled : c.off_axis;
   q.off_axis = a.off_axis.empty() ? by_default : wood::off_axis_from_name(a.off_axis);

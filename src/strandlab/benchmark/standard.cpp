@@ -38,7 +38,7 @@ std::vector<StrandKind> kinds(bool yields) {
   StrandKind surface{"surface", wood::library()[0], 0}, core{"core", wood::library()[0], 90};
   for (auto* kind : {&surface, &core}) {
     if (yields) continue;
-    kind->material.Y_R = kind->material.Y_T = kind->material.S_RT = 1e6;  // MPa: never reached
+    kind->material.hill.Y_R = kind->material.hill.Y_T = kind->material.hill.S_RT = 1e6;  // MPa: never reached
   }
   return {surface, core};
 }

@@ -1,28 +1,16 @@
 // The one table of case keys: from it come reading and validation, `strandlab init` and `check`, and docs/cases.md.
 #pragma once
 
-#include <cstdint>
 #include <functional>
-#include <limits>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "strandlab/case/case.hpp"
+#include "strandlab/core/declaration.hpp"
 
 namespace strandlab::cases {
 
-using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, std::vector<std::string>>;
-
-// Numbers a key accepts; for a list, each of its entries.
-struct Range {
-  double lo = -std::numeric_limits<double>::infinity(), hi = std::numeric_limits<double>::infinity();
-  bool lo_open = false, hi_open = false;  // the limit itself is excluded
-  bool infinite = false;                  // `inf` is accepted
-  bool zero = false;                      // 0 is accepted too, below lo
-  bool increasing = false;                // lists: each entry greater than the one before
-  bool decreasing = false;                // lists: each entry less than the one before
-};
+using Value = OptionValue;
 
 struct Key {
   std::string path;  // "press.speed_m_s"; "kinds.*.angle_deg" for every [kinds.NAME]

@@ -59,29 +59,31 @@ Face make_face(const Strand<2>& strand, Side side) {
   return face;
 }
 
-// Another face that may lie between the two of a pair.
-struct Rival {
+// A face on the other side of a face's glue line: one of the faces that the glue may reach. Faces in contact overlap a
+// little, which is a negative gap; one further behind than `lowest` is the far side of a strand and is not reached.
+struct Neighbour {
   const Face* face;
-  double lowest;  // mm, gap to the pair's face from which on it faces it
+  double lowest;  // mm, gap
   int strand;
 };
 
-// The two faces that may be glued and how far apart: gap within (lowest, highest).
+// A top face a and a bottom face b above it, which may be glued: where the gap is from `lowest` to `highest`, and no
+// other neighbour of a or of b is nearer.
 struct Pair {
-  const Face& a;           // a top face
-  const Face& b;           // a bottom face above it
+  const Face& a;
+  const Face& b;
   double lowest, highest;  // mm
   int strand_a, strand_b;
-  const std::vector<Rival>& over_a;   // bottom faces near a, that of b among them
-  const std::vector<Rival>& under_b;  // top faces near b, that of a among them
+  const std::vector<Neighbour>& over_a;   // bottom faces near a, b among them
+  const std::vector<Neighbour>& under_b;  // top faces near b, a among them
 };
 
-// Where the normal of face a at s meets face b, as a place on b; nothing if it passes b's ends.
+// The place on b that the normal of a at s meets; nothing if it passes b's ends.
 std::optional<double> meet(const Face& a, double s, const Face& b) {
   const Vec<2> p = a.position(s), n = a.normal_at(s);
-  const auto side = [&](int corner) {
-    return a.sense * cross(n, b.corner[corner] - p);
-  };  // falls along b, which lies to the right of a top face's n and to the left of a bottom face's
+  // Which side of the normal's line a corner of b lies on: positive towards b's first corner, negative towards its
+  // last, whichever of the two faces is the top one.
+  const auto side = [&](int corner) { return a.sense * cross(n, b.corner[corner] - p); };
   int low = 0, high = b.segments();
   if (side(low) < 0 || side(high) > 0) return std::nullopt;
   while (high - low > 1) {
@@ -92,7 +94,12 @@ std::optional<double> meet(const Face& a, double s, const Face& b) {
   return low + (before > after ? std::clamp(before / (before - after), 0.0, 1.0) : 0.5);
 }
 
-// What face b offers to place s on a: where, and how far off along the normal.
+// Faces look at each other where their outward normals are more than 120 degrees apart. Judgement: those of flat
+// strands are 180 degrees apart; it keeps the faces of a strand end that the press folded over from bonding to what
+// they slid along.
+constexpr double kFaceToFace = -0.5;  // cosine
+
+// The place on b that lies opposite a place on a, and the gap along the mean of the two normals.
 struct Facing {
   double place;
   double gap;  // mm
@@ -102,21 +109,22 @@ std::optional<Facing> facing(const Face& a, double s, const Face& b) {
   const auto place = meet(a, s, b);
   if (!place) return std::nullopt;
   const Vec<2> na = a.normal_at(s), nb = b.normal_at(*place);
-  if (na.dot(nb) > -0.5) return std::nullopt;  // not face to face
+  if (na.dot(nb) > kFaceToFace) return std::nullopt;
   return Facing{*place, (b.position(*place) - a.position(s)).dot((na - nb).normalized())};
 }
 
-// Whether a rival other than `strand` faces the place nearer than `gap`; of two as near, the first one does.
-bool occluded(const Face& face, double s, const std::vector<Rival>& rivals, int strand, double gap) {
-  return std::any_of(rivals.begin(), rivals.end(), [&](const Rival& rival) {
-    if (rival.strand == strand) return false;
-    const auto other = facing(face, s, *rival.face);
-    if (!other || other->gap < rival.lowest) return false;
-    return other->gap < gap || (other->gap == gap && rival.strand < strand);
+// Whether a neighbour of place s is nearer than that of `strand`, which is at `gap`. Of two as near, the one of the
+// lower number counts as nearer, so that no place is glued twice.
+bool occluded(const Face& face, double s, const std::vector<Neighbour>& neighbours, int strand, double gap) {
+  return std::any_of(neighbours.begin(), neighbours.end(), [&](const Neighbour& neighbour) {
+    if (neighbour.strand == strand) return false;
+    const auto other = facing(face, s, *neighbour.face);
+    if (!other || other->gap < neighbour.lowest) return false;
+    return other->gap < gap || (other->gap == gap && neighbour.strand < strand);
   });
 }
 
-// The place on b that s on a is glued to, if it is: nothing of another strand lies between the two.
+// The place on b that s on a is glued to; nothing where the gap is too wide or another strand lies between the two.
 std::optional<double> glued(const Pair& pair, double s) {
   const auto other = facing(pair.a, s, pair.b);
   if (!other || other->gap < pair.lowest || other->gap > pair.highest) return std::nullopt;
@@ -217,7 +225,8 @@ Faces make_faces(const Panel<2>& panel) {
   return faces;
 }
 
-// How far two strands in contact may overlap.
+// How far two strands in contact may overlap, mm: half of the thinner one. Judgement; contact on the grid lets them
+// overlap by a part of a cell.
 double overlap_in_contact(const Strand<2>& a, const Strand<2>& b) {
   return 0.5 * std::min(a.lattice.thickness(), b.lattice.thickness());
 }
@@ -239,7 +248,7 @@ std::vector<GluePoint<2>> cure(const Panel<2>& panel, const CuringOptions& optio
   check(options);
   const auto faces = make_faces(panel);
   const int strands = static_cast<int>(panel.strands.size());
-  std::vector<std::vector<Rival>> over(panel.strands.size()), under(panel.strands.size());
+  std::vector<std::vector<Neighbour>> over(panel.strands.size()), under(panel.strands.size());
   for (int a = 0; a < strands; ++a) {
     for (int b = 0; b < strands; ++b) {
       const double overlap = overlap_in_contact(panel.strands[a], panel.strands[b]);

@@ -18,27 +18,24 @@ constexpr double kMPa = 1e6;             // Pa
 struct Radius {
   double value, slope;  // slope by plastic compression
 };
-Radius radius(const wood::CrushingHardening& h, double collapsed, double plastic) {
-  const double left = (1 - h.start) * std::exp(plastic), x = 1 - left;
+Radius radius(const wood::Crushing::Hardening& h, double collapsed, double plastic) {
+  const double left = (1 - h.start()) * std::exp(plastic), x = 1 - left;
   double slope = 0;
-  const double value = wood::crushing_radius<wood::ScalarOps>(h, std::max(x, collapsed), slope);
+  const double value = wood::Crushing::radius<wood::ScalarOps>(h, std::max(x, collapsed), slope);
   return {value, x > collapsed ? slope * left : 0};
 }
 
 }  // namespace
 
 Layer layer_of(const wood::Material& material, double thickness) {
-  auto crushing = material;
-  crushing.law = wood::Law::kCrushing;
-  const auto in_axes = wood::in_strand_axes(crushing, 0);
-  return {thickness, kMPa * material.E_R, kMPa * material.crushing.Y_R, in_axes.crushing};
+  return {thickness, kMPa * material.E_R, kMPa * material.crushing.Y_R, wood::Crushing::hardening(material)};
 }
 
 Column::Column(std::vector<Layer> layers, RateEffect rate) : layers_(std::move(layers)), rate_(rate) {
   for (const auto& layer : layers_) {
     if (!(layer.thickness > 0)) throw InputError(fmt::format("a layer {} m thick cannot be pressed", layer.thickness));
     State state;
-    state.collapsed = layer.hardening.start;
+    state.collapsed = layer.hardening.start();
     states_.push_back(state);
   }
 }
@@ -57,7 +54,7 @@ void Column::soften(const std::vector<double>& stiffness, const std::vector<doub
       const double kept = s.elastic * s.e / stiffness[i];
       s.plastic += s.elastic - kept;
       s.elastic = kept;
-      s.collapsed = std::max(s.collapsed, 1 - (1 - layers_[i].hardening.start) * std::exp(s.plastic));
+      s.collapsed = std::max(s.collapsed, 1 - (1 - layers_[i].hardening.start()) * std::exp(s.plastic));
     }
     s.e = stiffness[i];
     s.g = yield[i];
@@ -80,7 +77,7 @@ double Column::flow(const Layer& layer, const State& state, double stress, doubl
   double by_d = 0;
   if (at(0, by_d) >= 0) return 0;
   // The limit of H, where all pores are gone, is out of reach for any stress.
-  const double full = state.plastic - std::log((1 - layer.hardening.limit) / (1 - layer.hardening.start));
+  const double full = state.plastic - std::log((1 - layer.hardening.limit) / (1 - layer.hardening.start()));
   double low = 0, high = full, d = std::min(std::max(least, 1e-6), .5 * full);
   for (int i = 0; i < 200; ++i) {
     const double f = at(d, by_d);
@@ -99,7 +96,7 @@ Column::Response Column::respond(const Layer& layer, const State& state, double 
   double by_stress = 0;
   const double d = flow(layer, state, stress, seconds, by_stress);
   r.state.plastic -= d;
-  r.state.collapsed = std::max(state.collapsed, 1 - (1 - layer.hardening.start) * std::exp(r.state.plastic));
+  r.state.collapsed = std::max(state.collapsed, 1 - (1 - layer.hardening.start()) * std::exp(r.state.plastic));
   // ln J + J sigma/(e E_R) = eps_p, by Newton's method.
   const double ratio = stress / (state.e * layer.E_R);
   double u = r.state.plastic;

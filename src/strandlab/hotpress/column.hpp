@@ -4,12 +4,12 @@
 // along the thickness only,
 //   ln J = eps_p - J sigma/(e E_R),   sigma = g Y_R H(x) r where it yields,   x = 1 - (1 - x_start) exp(eps_p) at
 //   least, r = (max(rate of -eps_p, rate_floor)/rate_reference)^n
-// e and g are the softening factors, H the hardening of the crushing law (wood/hardening.hpp).
+// e and g are the softening factors, H the hardening of the crushing law (wood/laws/crushing.hpp).
 #pragma once
 
 #include <vector>
 
-#include "strandlab/wood/hardening.hpp"
+#include "strandlab/wood/laws/crushing.hpp"
 #include "strandlab/wood/material.hpp"
 
 namespace strandlab::hotpress {
@@ -24,7 +24,7 @@ struct RateEffect {
 struct Layer {
   double thickness = 0;     // m, of the wood as formed, without gaps
   double E_R = 0, Y_R = 0;  // Pa
-  wood::CrushingHardening hardening;
+  wood::Crushing::Hardening hardening;
 };
 // Of `thickness` (m) of a material. Its crushing constants hold, whatever its law.
 Layer layer_of(const wood::Material& material, double thickness);

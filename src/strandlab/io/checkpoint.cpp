@@ -119,8 +119,7 @@ void visit_strand(AnyStrand& strand, const Visit& visit) {
   auto& [kind, row, angle, material, stiffness_factor, lattice, points] = strand;
   auto& [counts, spacing] = lattice;
   static_cast<void>(std::tie(kind, row, counts, points));  // in datasets of their own
-  auto& [density, stiffness, surface, yield, hardening_K, hardening_n, crushing] = material;
-  auto& [limit, start, h1, h2, exponent] = crushing;
+  auto& [density, stiffness, surface, hardening] = material;
   const auto dim = static_cast<hsize_t>(spacing.size());
   visit("angle_deg", Label{"deg", "grain against the section"}, Shape{}, &angle);
   visit("spacing_mm", Label{"mm", "of the material points at formation"}, Shape{dim}, spacing.data());
@@ -129,15 +128,13 @@ void visit_strand(AnyStrand& strand, const Visit& visit) {
   visit("density_t_mm3", Label{"t/mm^3", "density at formation"}, Shape{}, &density);
   visit("stiffness_MPa", Label{"MPa", "strand axes, Voigt 11 22 33 23 13 12"}, Shape{6, 6}, stiffness.data());
   visit("yield_surface_per_MPa2", Label{"1/MPa^2", "f^2 = s^T P s, strand axes"}, Shape{6, 6}, surface.data());
-  visit("yield_stress_MPa", Label{"MPa", "Y_R"}, Shape{}, &yield);
-  visit("hardening_K_MPa", Label{"MPa", "K: yield at f = 1 + (K/Y_R) alpha^n"}, Shape{}, &hardening_K);
-  visit("hardening_n", Label{"1", "n"}, Shape{}, &hardening_n);
-  visit("crushing_limit", Label{"1", "x_L: yield at f = 1 + h1 x + h2 (x/(x_L - x))^m; 0: by K and n"}, Shape{},
-        &limit);
-  visit("crushing_start", Label{"1", "x as formed"}, Shape{}, &start);
-  visit("crushing_h1", Label{"1", "h1"}, Shape{}, &h1);
-  visit("crushing_h2", Label{"1", "h2"}, Shape{}, &h2);
-  visit("crushing_m", Label{"1", "m"}, Shape{}, &exponent);
+  wood::for_each_law([&]<class L>() {
+    auto& numbers = wood::part_of<L>(hardening);
+    std::decay_t<decltype(numbers)>::visit(numbers,
+                                           [&](const char* name, const char* unit, const char* meaning, auto& number) {
+                                             visit(name, Label{unit, meaning}, Shape{}, &number);
+                                           });
+  });
 }
 
 hsize_t product(const Shape& shape) {

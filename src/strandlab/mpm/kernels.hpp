@@ -70,7 +70,7 @@ struct BodyView {
   double reach[Dim];      // mm, at formation: furthest offset of a face point from its particle
   const wood::YieldModes<4>* modes4;
   const wood::YieldModes<6>* modes6;
-  bool crushes;  // by wood::CrushingLaw, else wood::HillLaw
+  wood::Law law;  // that holds
   Window window;
   Window mirror[2];  // nodes of its mirror images in the bottom and top platens; height 0: far away
   int faces;
@@ -154,7 +154,7 @@ struct Kernels {
   void (*update_grid)(const Pencil&, const Frame<Dim>&, const GridView<Dim>&, bool profile, PencilResult&);
   void (*gather)(const Tile&, const BodyView<Dim>&, const Frame<Dim>&, const double* nodes, const unsigned char* lanes,
                  bool profile, TileResult&);
-  // Radius of the yield surface from the history variable, in the bits of gather. For bodies that crush.
+  // Radius of the yield surface from the history variable, in the bits of gather.
   void (*set_radius)(const BodyView<Dim>&, int blocks);
 };
 

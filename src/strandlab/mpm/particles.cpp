@@ -30,18 +30,8 @@ void fill(const Body<Dim>& input, Particles<Dim>& body) {
       }
       for (int k = 0; k < body.components; ++k) d[(C::stress + k) * kBlock] = points.stress[p][wood::kModeToVoigt[k]];
       d[C::plastic(body.components) * kBlock] = points.plastic[p];
-      d[C::radius(body.components) * kBlock] =
-          1 + wood::ScalarOps::hardening_slope(body.material.hardening_K / body.material.Y_R, body.material.hardening_n,
-                                               points.plastic[p]) *
-                  points.plastic[p] / body.material.hardening_n;
     }
   }
-}
-
-// The power law's radius has the same bits in every build; that of crushing is left to the build that will use it.
-template <int Dim>
-void set_radius(Particles<Dim>& body) {
-  if (body.material.crushes()) kernels<Dim>().set_radius(view_of_wood(body), body.blocks);
 }
 
 // The points of a face in packs of eight, tile by tile. `tiles`: of this body, in the order of tile_of.
@@ -110,7 +100,7 @@ Particles<Dim> store_particles(const Body<Dim>& input, int number, std::vector<C
     tiles.push_back({tile, order[t].colour});
   }
   fill(input, body);
-  set_radius(body);
+  kernels<Dim>().set_radius(view_of_wood(body), body.blocks);  // in the bits of the build that will use it
   for (const auto& face : input.faces) add_face(face, tile_of, tiles.data() + first_tile, order.size(), body);
   return body;
 }
@@ -122,7 +112,7 @@ BodyView<Dim> view_of_wood(Particles<Dim>& body) {
   v.components = body.components;
   v.modes4 = &body.modes4;
   v.modes6 = &body.modes6;
-  v.crushes = body.material.crushes();
+  v.law = body.material.law();
   return v;
 }
 

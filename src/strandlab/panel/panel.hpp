@@ -67,7 +67,7 @@ Strand<Dim> formed_strand(const Lattice<Dim>& lattice, const Placement<Dim>& pla
   strand.material = material;
   strand.lattice = lattice;
   strand.points = formed_points(lattice, placement);
-  strand.points.plastic.assign(lattice.size(), material.crushing.start);
+  strand.points.plastic.assign(lattice.size(), material.start());
   return strand;
 }
 

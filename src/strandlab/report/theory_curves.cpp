@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "strandlab/glue/bond.hpp"
 #include "strandlab/vtest/vtest.hpp"
 
 namespace strandlab::report {
@@ -37,18 +38,15 @@ std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows, c
     const auto add = [&](const char* model, double modulus) {
       theory.push_back({m.compaction, model, m.test, m.compliance_t_mm_per_MPa, modulus});
     };
-    switch (vtest::kind_from_name(m.test)) {  // no default: the compiler asks for the model of a new test
-      case vtest::Kind::kTension: {
+    switch (vtest::closed_form(vtest::kind_from_name(m.test))) {  // no default: the compiler asks for a new one
+      case vtest::ClosedForm::kRuleOfMixtures: {
         add(kRuleOfMixtures, theory::tension_modulus_MPa(rows, m.compaction, off_axis));
         if (!bridged) break;
-        const double compliance = std::max(m.compliance_t_mm_per_MPa, 0.0);  // as the virtual tests take it
+        const double compliance = glue::taken(m.compliance_t_mm_per_MPa);
         add(kShearLag, theory::shear_lag_panel_MPa(rows, {}, compliance, m.compaction, off_axis));
         break;
       }
-      case vtest::Kind::kBendingEndRotation:
-      case vtest::Kind::kBendingEndCouple:
-      case vtest::Kind::kBending3Point:
-      case vtest::Kind::kBending4Point:
+      case vtest::ClosedForm::kLaminatedBeam:
         add(kLaminatedBeam, theory::bending_modulus_MPa(rows, m.compaction, off_axis));
         break;
     }

@@ -18,6 +18,7 @@
 #include "strandlab/report/morphology.hpp"
 #include "strandlab/run/folder.hpp"
 #include "strandlab/vtest/vtest.hpp"
+#include "strandlab/wood/laws/law.hpp"
 
 namespace strandlab::run {
 namespace {
@@ -42,15 +43,10 @@ Json read_object(const fs::path& file, const std::string& what) {
 }
 
 Json describe(const wood::Material& m) {
-  Json description{{"name", m.name},
-                   {"density_kg_m3", m.density_kg_m3},
-                   {"E_L_MPa", m.E_L},
-                   {"E_R_MPa", m.E_R},
-                   {"E_T_MPa", m.E_T},
-                   {"law", wood::name(m.law)},
-                   {"Y_R_MPa", m.law == wood::Law::kHill ? m.Y_R : m.crushing.Y_R}};
-  if (m.law == wood::Law::kHill) description["hardening_K_MPa"] = m.hardening_K;
-  return description;
+  Json text{{"name", m.name},   {"density_kg_m3", m.density_kg_m3}, {"E_L_MPa", m.E_L}, {"E_R_MPa", m.E_R},
+            {"E_T_MPa", m.E_T}, {"law", wood::name(m.law)}};
+  for (const auto& [name, value] : wood::description(m.law).in_short(m)) text[name] = value;
+  return text;
 }
 
 // Materials of the case's kinds, and those that strands of a mat file name beside them.

@@ -79,7 +79,7 @@ std::vector<Spring> make_springs(const Mesh& mesh, const std::vector<glue::GlueP
   return springs;
 }
 
-ElementStiffness spring_stiffness(const Spring& spring, const GlueStiffness& glue) {
+ElementStiffness spring_stiffness(const Spring& spring, const glue::BondStiffness& glue) {
   return spring.area * (glue.tangential * spring.tangent * spring.tangent.transpose() +
                         glue.normal * spring.normal * spring.normal.transpose());
 }

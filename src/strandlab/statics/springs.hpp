@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "strandlab/glue/bond.hpp"
 #include "strandlab/statics/mesh.hpp"
 
 namespace strandlab::statics {
@@ -23,12 +24,7 @@ struct Spring {
 std::vector<Spring> make_springs(const Mesh& mesh, const std::vector<glue::GluePoint<2>>& points,
                                  const std::vector<bool>& at_end);
 
-// Stiffness of a glue line per area, MPa/mm.
-struct GlueStiffness {
-  double tangential = 0, normal = 0;
-};
-
 // Stiffness (N/mm per mm of depth) of a spring in its eight dofs.
-ElementStiffness spring_stiffness(const Spring& spring, const GlueStiffness& glue);
+ElementStiffness spring_stiffness(const Spring& spring, const glue::BondStiffness& glue);
 
 }  // namespace strandlab::statics

@@ -94,7 +94,7 @@ void PanelStiffness::add_block(const std::array<int, 4>& nodes, const ElementSti
   }
 }
 
-LowerMatrix PanelStiffness::with(const GlueStiffness& glue) const {
+LowerMatrix PanelStiffness::with(const glue::BondStiffness& glue) const {
   LowerMatrix sum = wood_;
   for (const auto& s : springs_) add_block(s.nodes, spring_stiffness(s, glue), sum.value);
   return sum;
@@ -130,7 +130,7 @@ void PanelStiffness::add_traction_forces(const std::vector<Vec<2>>& tractions, s
   }
 }
 
-double PanelStiffness::glue_energy(const std::vector<double>& displacement, const GlueStiffness& glue) const {
+double PanelStiffness::glue_energy(const std::vector<double>& displacement, const glue::BondStiffness& glue) const {
   auto tractions = jumps(displacement);
   for (auto& t : tractions) t = Vec<2>(glue.tangential * t[0], glue.normal * t[1]);
   return 0.5 * traction_work(tractions, displacement);

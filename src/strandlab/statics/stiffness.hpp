@@ -15,7 +15,7 @@ class PanelStiffness {
   PanelStiffness(const Mesh& mesh, std::vector<Spring> springs);
 
   // Stiffness of wood and glue, no supports. The pattern is the same for every glue.
-  LowerMatrix with(const GlueStiffness& glue) const;
+  LowerMatrix with(const glue::BondStiffness& glue) const;
 
   // Jumps (tangential, normal), mm, of every spring.
   std::vector<Vec<2>> jumps(const std::vector<double>& displacement) const;
@@ -24,7 +24,7 @@ class PanelStiffness {
 
   // Strain energy (mJ per mm of depth) of the wood, and of the glue lines, for displacements of all dofs (mm).
   double wood_energy(const std::vector<double>& displacement) const;
-  double glue_energy(const std::vector<double>& displacement, const GlueStiffness& glue) const;
+  double glue_energy(const std::vector<double>& displacement, const glue::BondStiffness& glue) const;
   // Work of given tractions on the jumps, mJ per mm of depth.
   double traction_work(const std::vector<Vec<2>>& tractions, const std::vector<double>& displacement) const;
 

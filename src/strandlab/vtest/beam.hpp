@@ -1,54 +1,53 @@
-// A panel bent on supports: forces on short pads, deflections of cross sections. Per mm of depth throughout.
+// A panel bent on supports, in its middle: forces on short pads without horizontal restraint, deflections of cross
+// sections. Per mm of depth throughout; loads of 1 N in all.
 #pragma once
 
 #include <vector>
 
-#include "strandlab/vtest/load_cases.hpp"
+#include "strandlab/vtest/model.hpp"
 
 namespace strandlab::vtest {
 
-class Beam {
- public:
-  explicit Beam(const statics::Mesh& mesh) : mesh_(mesh) {}
+// Span and width of the pads, mm, for the thickness of the panel.
+double span_mm(const Model& model, const Options& options);
+double pad_mm(const Model& model, const Options& options);
 
-  // Adds the nodal forces of a pad pressed on the panel: a vertical force (N, positive up) spread over `width` mm
-  // around x as 1 + cos, on the topmost (or lowest) wood at each place. Its resultant is `force` at x, exactly. Throws
-  // InputError where there is no wood under the pad.
-  enum class Face { kTop, kBottom };
-  void add_pad(Face face, double x, double width, double force, std::vector<double>& forces) const;
+// Refuses spans, pads and panels that cannot be bent on supports. Throws InputError.
+void check_span(const Panel<2>& panel, const Options& options);
+// The span, and a thickness beyond either support.
+double length_for_span_mm(const Options& options, double thickness_mm);
 
-  // Adds `factor` times the deflection of the cross section at x, the mean of u_y over its wood (Cowper, J. Appl. Mech.
-  // 33 (1966) 335), as a linear form of the displacements. Throws InputError where there is no wood.
-  void add_deflection(double x, double factor, std::vector<double>& form) const;
+// Takes away rigid motion only: a node at either end of the panel held in y, one of them in x. Loads in balance leave
+// no reaction there.
+statics::Supports rigid_motion_supports(const Model& model);
 
- private:
-  const statics::Mesh& mesh_;
-};
-
-// Supports that only take away rigid motion: a node at either end of the panel held in y, one of them in x. Loads in
-// balance leave no reaction there.
-statics::Supports rigid_motion_supports(const statics::Mesh& mesh, const statics::LowerMatrix& stiffness);
-
-// Loads in balance and what is read off, per mm of depth: 1 N in all on the panel, downwards.
+// Loads in balance and what is read off.
 struct BeamTest {
   std::vector<double> forces;      // N, nodal
   std::vector<double> deflection;  // mm, linear form: midspan against the supports, positive down
-  std::vector<double> gauge;       // mm, the same against two sections `gauge_length` apart; empty for three points
   double span = 0, arm = 0;        // mm; arm: support to the next load
-  double gauge_length = 0;         // mm
 };
 
-// Load in the middle of the span, which is in the middle of the panel.
-BeamTest three_point(const Section& section, const statics::Mesh& mesh, double span, double pad);
-// Loads at the thirds of the span. The gauge stays a thickness clear of the loads.
-BeamTest four_point(const Section& section, const statics::Mesh& mesh, double span, double pad);
+// Supports that bear half of 1 N each, no load yet. Throws InputError where there is no wood over a support.
+BeamTest supported(const Model& model, double span, double arm, double pad);
+// Adds a load (N, downwards) on the panel, `offset` mm from the middle. Throws InputError where there is no wood.
+void add_load(const Model& model, double offset, double pad, double load, BeamTest& test);
 
-// Bernoulli's modulus (MPa) that gives the deflection between supports, or over the gauge, which bends without shear:
-// E = P a (3 S^2 - 4 a^2)/(48 I w), a = S/2 for three points; E = P a l^2/(16 I w).
-double apparent_modulus(const BeamTest& test, const Section& section, double deflection);
-double gauge_modulus(const BeamTest& test, const Section& section, double deflection);
+// The deflection in the middle against the mean of two sections `length` apart, positive down, as a linear form of the
+// displacements. A section's deflection is the mean of u_y over its wood (Cowper, J. Appl. Mech. 33 (1966) 335). Throws
+// InputError where there is no wood.
+std::vector<double> sag(const Model& model, double length);
 
-// Modulus without shear from apparent ones at two spans: 1/E_app = 1/E + const/S^2 (EN 408, variable span).
-double modulus_without_shear(double long_span, double long_modulus, double short_span, double short_modulus);
+// The loads as a load case, and the unit forces on the deflection.
+statics::LoadCase force_load(const BeamTest& test);
+statics::LoadCase deflection_load(const BeamTest& test);
+
+// Energy that one state's forces spend on another's displacements, mJ.
+double mutual_energy(const statics::BondedPanel& panel, const statics::Solution& a, const statics::Solution& b);
+
+// Bernoulli's modulus of the deflection between supports, E = P a (3 S^2 - 4 a^2)/(48 I w) (a = S/2 for three points),
+// from solutions of the two load cases: w from their mutual energy, and read off for the modulus from the reaction.
+void apparent(const Model& model, const BeamTest& test, const statics::Solution& loaded,
+              const statics::Solution& deflection, Modulus& modulus);
 
 }  // namespace strandlab::vtest

@@ -9,13 +9,16 @@
 
 #include "strandlab/glue/glue.hpp"
 #include "strandlab/panel/panel.hpp"
+#include "strandlab/vtest/kinds/list.hpp"
 
 namespace strandlab::vtest {
 
-enum class Kind { kTension, kBendingEndRotation, kBendingEndCouple, kBending3Point, kBending4Point };
-const char* name(Kind kind);                   // "tension", "bending_end_rotation", "bending_end_couple",
-                                               // "bending_3_point", "bending_4_point"
-const char* label(Kind kind);                  // for people: "Bending (end rotation)"
+// Closed form of the room theory that answers a test: rows that stretch alike, or that bend as one beam.
+enum class ClosedForm { kRuleOfMixtures, kLaminatedBeam };
+
+const char* name(Kind kind);   // "tension", "bending_3_point", ... (kinds/list.hpp)
+const char* label(Kind kind);  // for people: "Bending (end rotation)"
+ClosedForm closed_form(Kind kind);
 std::vector<std::string> kind_names();         // of all kinds
 Kind kind_from_name(const std::string& name);  // throws InputError with the allowed names
 std::string allowed_kinds();                   // those names, comma-separated
@@ -24,8 +27,8 @@ inline constexpr int kMostElements = 48;  // through a strand
 
 struct Options {
   std::vector<Kind> kinds{Kind::kTension, Kind::kBendingEndRotation};
-  std::vector<double> compliance_t_mm_per_MPa{0.0};  // 1/D_t; negative is taken as perfect, with a warning
-  double compliance_n_mm_per_MPa = 0;                // 1/D_n, likewise
+  std::vector<double> compliance_t_mm_per_MPa{0.0};  // 1/D_t of the glue lines (glue/bond.hpp)
+  double compliance_n_mm_per_MPa = 0;                // 1/D_n
   int elements_through_strand = 3;
   glue::CuringOptions curing;     // point_spacing_mm = 0: as the elements
   double span_to_thickness = 20;  // of 3- and 4-point bending: 20 in EN 310, 24 in ASTM D1037
@@ -72,22 +75,12 @@ void check_ends(const Panel<2>& mat, double compaction);
 // Moduli of the panel, frozen as it lies between the platens: small strain, linear, plane strain, material axes as
 // pressed; locked-in stress, geometric stiffness and springback are ignored.
 // Strands that free sides let beyond the end planes x = 0 and x = L are cut there, with a warning.
-//  - tension: end planes kept plane and free to move through the thickness, E = 2 U/(eps^2 L b h)
-//  - bending by end rotation: end plane x = L turned by theta at no axial force, E_b = 2 U L/(I theta^2)
-//  - bending by end couple: x = 0 clamped, axial forces +-P over the end faces of the outermost rows present at x = L,
-//  a lever d
-//    apart: E_b = M^2 L/(2 U I), M = P d; [Le 4.2]
-//  - bending on supports at a span S, in the middle of the panel; loads and supports are pads without horizontal
-//  restraint; w is the deflection of the cross section at midspan against those over the supports, taken from the
-//  mutual energy of the loads with a unit force on w:
-//    3-point: load P at midspan, apparent E = P S^3/(48 I w); without shear from the spans S and S/2 (EN 408, variable
-//    span)
-//    4-point: P/2 at the thirds, apparent E = 23 P S^3/(1296 I w); without shear from the deflection w_l over a length
-//    l between the loads: E = P S l^2/(48 I w_l)
-// with U the energy of wood and glue lines, h the platen gap and I = b h^3/12. Throws InputError for options it cannot
-// use, for a panel of which no strands connect both ends, and for one shorter than needed_length_mm() or in parts that
-// no glue connects where it is bent on supports; RunError for an inverted element. `before_solve`, where given, is
-// called before each solution of the equations; what it throws ends the tests and passes through.
+// The file of each test (kinds/) says how it holds and loads the panel and how the modulus follows, with U the energy
+// of wood and glue lines, h the platen gap, I = b h^3/12 and w the deflection of the cross section at midspan against
+// those over the supports. Throws InputError for options it cannot use, for a panel of which no strands connect both
+// ends, and for one shorter than needed_length_mm() or in parts that no glue connects where it is bent on supports;
+// RunError for an inverted element. `before_solve`, where given, is called before each solution of the equations; what
+// it throws ends the tests and passes through.
 Result measure(const Panel<2>& panel, const Options& options, const std::function<void()>& before_solve = nullptr);
 
 // Length that a panel of this thickness must have for the tests asked for: 3- and 4-point bending need the span and one

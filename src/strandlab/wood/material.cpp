@@ -1,7 +1,6 @@
 #include "strandlab/wood/material.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/LU>
 #include <array>
@@ -10,18 +9,10 @@
 #include <utility>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/wood/laws/law.hpp"
 
 namespace strandlab::wood {
 namespace {
-
-constexpr double kCellWallDensity = 1500;  // kg/m^3
-
-// Places of the wood axes and of the shears in the Voigt order of a strand at angle 0.
-constexpr int kL = 0, kT = 1, kR = 2, kTR = 3, kLR = 4, kLT = 5;
-
-[[noreturn]] void reject(const Material& m, const std::string& what) {
-  throw InputError(fmt::format("material \"{}\": {}", m.name, what));
-}
 
 void check_signs(const Material& m) {
   const std::array<std::pair<const char*, double>, 7> finite{{{"density_kg_m3", m.density_kg_m3},
@@ -35,23 +26,6 @@ void check_signs(const Material& m) {
     if (!(value > 0) || !std::isfinite(value)) {
       reject(m, fmt::format("{} = {} must be a positive finite number", name, value));
     }
-  }
-}
-
-void check_hill_constants(const Material& m) {
-  const std::array<std::pair<const char*, double>, 6> yields{
-      {{"Y_L", m.Y_L}, {"Y_R", m.Y_R}, {"Y_T", m.Y_T}, {"S_RT", m.S_RT}, {"S_RL", m.S_RL}, {"S_TL", m.S_TL}}};
-  for (const auto& [name, value] : yields) {
-    if (!(value > 0)) reject(m, fmt::format("{} = {} must be positive (or infinite: never yields)", name, value));
-  }
-  if (!std::isfinite(m.Y_R)) reject(m, "Y_R must be finite: it is the scale of the hardening law 1 + (K/Y_R) alpha^n");
-  if (!(m.hardening_K >= 0) || !std::isfinite(m.hardening_K)) {
-    reject(m, fmt::format("hardening_K = {} must be zero or a positive finite number", m.hardening_K));
-  }
-  if (!(m.hardening_n >= 1) || !std::isfinite(m.hardening_n)) {
-    reject(m, fmt::format(
-                  "hardening_n = {} must be a finite number of at least 1 (below, hardening starts infinitely steep)",
-                  m.hardening_n));
   }
 }
 
@@ -85,93 +59,6 @@ void check_positive_definite(const Material& m) {
                         "between {:.6g} and {:.6g}",
                         k[worst].name, k[worst].nu, (-a * b - half_range) / k[worst].scale,
                         (-a * b + half_range) / k[worst].scale));
-}
-
-// Hill's form does not see pressure, so it is positive semi-definite when 1/Y_L, 1/Y_R, 1/Y_T can be the sides of a
-// triangle.
-void check_hill(const Material& m) {
-  const double l = 1 / m.Y_L, r = 1 / m.Y_R, t = 1 / m.Y_T;
-  const double round_off = 1e-12 * (r + t);
-  if (std::abs(r - t) > l + round_off) {
-    reject(m, fmt::format("yield surface is not positive semi-definite: Y_R = {}, Y_T = {}, Y_L = {} break the rule "
-                          "|1/Y_R - 1/Y_T| <= 1/Y_L (with Y_L infinite, Y_R must equal Y_T)",
-                          m.Y_R, m.Y_T, m.Y_L));
-  }
-  if (l > r + t + round_off) {
-    reject(m, fmt::format("yield surface is not positive semi-definite: Y_L = {} breaks the rule "
-                          "1/Y_L <= 1/Y_R + 1/Y_T with Y_R = {}, Y_T = {}",
-                          m.Y_L, m.Y_R, m.Y_T));
-  }
-}
-
-void check_crushing(const Material& m) {
-  const auto& k = m.crushing;
-  const std::array<std::pair<const char*, double>, 6> yields{{{"crushing_Y_L", k.Y_L},
-                                                              {"crushing_Y_R", k.Y_R},
-                                                              {"crushing_Y_T", k.Y_T},
-                                                              {"crushing_S_RT", k.S_RT},
-                                                              {"crushing_S_RL", k.S_RL},
-                                                              {"crushing_S_TL", k.S_TL}}};
-  for (const auto& [name, value] : yields) {
-    if (!(value > 0)) reject(m, fmt::format("{} = {} must be positive (or infinite: never yields)", name, value));
-  }
-  if (!(std::abs(k.c) <= 1)) {
-    reject(m,
-           fmt::format("yield surface is not positive semi-definite: crushing_c = {} must lie between -1 and 1", k.c));
-  }
-  for (const auto& [name, value] : {std::pair{"crushing_h1", k.h1}, {"crushing_h2", k.h2}}) {
-    if (!(value >= 0) || !std::isfinite(value)) {
-      reject(m, fmt::format("{} = {} must be zero or a positive finite number", name, value));
-    }
-  }
-  if (!(k.exponent >= 1) || !std::isfinite(k.exponent)) {
-    reject(m, fmt::format("crushing_m = {} must be a finite number of at least 1 (below, hardening starts infinitely "
-                          "steep)",
-                          k.exponent));
-  }
-  if (!(k.start >= 0 && k.start < 1))
-    reject(m, fmt::format("crushing_start = {} must be from 0 to less than 1", k.start));
-  if (!(m.density_kg_m3 < kCellWallDensity)) {
-    reject(m, fmt::format("density_kg_m3 = {} leaves nothing to crush: it must be below that of the cell wall, {}",
-                          m.density_kg_m3, kCellWallDensity));
-  }
-}
-
-double inverse_square(double y) {
-  return 1 / (y * y);
-}
-
-// f^2 = s^T P s in wood axes; F, G, H after Hill (1950). An infinite yield stress leaves a zero.
-VoigtMatrix hill_in_wood_axes(const Material& m) {
-  const double l = inverse_square(m.Y_L), r = inverse_square(m.Y_R), t = inverse_square(m.Y_T);
-  VoigtMatrix P = VoigtMatrix::Zero();
-  P(kL, kL) = l;
-  P(kR, kR) = r;
-  P(kT, kT) = t;
-  P(kR, kT) = P(kT, kR) = -0.5 * (r + t - l);
-  P(kL, kT) = P(kT, kL) = -0.5 * (l + t - r);
-  P(kL, kR) = P(kR, kL) = -0.5 * (l + r - t);
-  P(kTR, kTR) = inverse_square(m.S_RT);
-  P(kLR, kLR) = inverse_square(m.S_RL);
-  P(kLT, kLT) = inverse_square(m.S_TL);
-  return P;
-}
-
-VoigtMatrix crushing_in_wood_axes(const Crushing& k) {
-  VoigtMatrix P = VoigtMatrix::Zero();
-  P(kL, kL) = inverse_square(k.Y_L);
-  P(kR, kR) = inverse_square(k.Y_R);
-  P(kT, kT) = inverse_square(k.Y_T);
-  P(kR, kT) = P(kT, kR) = -k.c / (k.Y_R * k.Y_T);
-  P(kTR, kTR) = inverse_square(k.S_RT);
-  P(kLR, kLR) = inverse_square(k.S_RL);
-  P(kLT, kLT) = inverse_square(k.S_TL);
-  return P;
-}
-
-CrushingHardening crushing_hardening(const Material& m) {
-  const auto& k = m.crushing;
-  return {1 - m.density_kg_m3 * (1 - k.start) / kCellWallDensity, k.start, k.h1, k.h2, k.exponent};
 }
 
 // Cosine and sine, exact at the multiples of 90 degrees so that aligned strands have exact zeros.
@@ -227,31 +114,17 @@ VoigtMatrix without_shears_across(VoigtMatrix A) {
   return A;
 }
 
-// Name of one of an enum's values: "exact" of {"exact", "uncoupled"}.
-template <class Choice, std::size_t N>
-Choice choice_from_name(const std::string& what, const std::string& text, const std::array<Choice, N>& choices) {
-  std::vector<std::string> names;
-  for (const Choice choice : choices) {
-    if (text == name(choice)) return choice;
-    names.emplace_back(name(choice));
-  }
-  throw InputError(fmt::format("{} '{}' is not known; allowed: {}", what, text, fmt::join(names, ", ")));
-}
-
 }  // namespace
-
-const char* name(Law law) {
-  return law == Law::kHill ? "hill" : "crushing";
-}
-Law law_from_name(const std::string& text) {
-  return choice_from_name("law", text, std::array{Law::kHill, Law::kCrushing});
-}
 
 const char* name(OffAxis choice) {
   return choice == OffAxis::kExact ? "exact" : "uncoupled";
 }
 OffAxis off_axis_from_name(const std::string& text) {
-  return choice_from_name("offaxis", text, std::array{OffAxis::kExact, OffAxis::kUncoupled});
+  for (const OffAxis choice : {OffAxis::kExact, OffAxis::kUncoupled}) {
+    if (text == name(choice)) return choice;
+  }
+  throw InputError(fmt::format("offaxis '{}' is not known; allowed: {}, {}", text, name(OffAxis::kExact),
+                               name(OffAxis::kUncoupled)));
 }
 
 const std::vector<Material>& library() {
@@ -267,7 +140,7 @@ const std::vector<Material>& library() {
     vtc.G_RL = 1616;
     vtc.G_TL = 1486;
     vtc.G_RT = 235;
-    vtc.S_RT = 10;
+    vtc.hill.S_RT = 10;
     vtc.crushing.start = 1 - poplar.density_kg_m3 / vtc.density_kg_m3;  // .615
     return std::vector<Material>{poplar, vtc};
   }();
@@ -277,12 +150,7 @@ const std::vector<Material>& library() {
 void validate(const Material& material) {
   check_signs(material);
   check_positive_definite(material);
-  if (material.law == Law::kCrushing) {
-    check_crushing(material);
-  } else {
-    check_hill_constants(material);
-    check_hill(material);
-  }
+  description(material.law).check(material);
 }
 
 VoigtMatrix compliance(const Material& m) {
@@ -310,25 +178,37 @@ VoigtMatrix stiffness(const Material& m) {
 }
 
 Material softened(Material m, double yield_factor) {
-  for (double* stress : {&m.Y_L, &m.Y_R, &m.Y_T, &m.S_RT, &m.S_RL, &m.S_TL, &m.hardening_K}) *stress *= yield_factor;
-  auto& k = m.crushing;
-  for (double* stress : {&k.Y_L, &k.Y_R, &k.Y_T, &k.S_RT, &k.S_RL, &k.S_TL}) *stress *= yield_factor;
+  for_each_law([&]<class L>() {
+    for (const auto& constant : L::description().constants) {
+      if (constant.unit == "MPa") constant.set(m, std::get<double>(constant.get(m)) * yield_factor);
+    }
+  });
   return m;
+}
+
+Law StrandMaterial::law() const {
+  Law last{};
+  for_each_law([&]<class L>() {
+    if (part_of<L>(hardening).holds()) last = kLaw<L>;
+  });
+  return last;
+}
+
+double StrandMaterial::start() const {
+  return with_law(law(), [&]<class L>() { return part_of<L>(hardening).start(); });
 }
 
 StrandMaterial in_strand_axes(const Material& material, double angle_deg, OffAxis off_axis) {
   const auto [c, s] = cos_sin(angle_deg);
   const VoigtMatrix T = strain_to_wood(c, s), Q = stress_to_wood(c, s);
-  const bool crushes = material.law == Law::kCrushing;
-  const VoigtMatrix surface = crushes ? crushing_in_wood_axes(material.crushing) : hill_in_wood_axes(material);
+  const VoigtMatrix surface = description(material.law).yield_surface(material);
   StrandMaterial out;
   out.density = material.density_kg_m3 * kTonnePerMm3;
   out.stiffness = symmetric(T.transpose() * stiffness(material) * T);
   out.yield_surface = symmetric(Q.transpose() * surface * Q);
-  out.Y_R = material.Y_R;
-  out.hardening_K = material.hardening_K;
-  out.hardening_n = material.hardening_n;
-  if (crushes) out.crushing = crushing_hardening(material);
+  for_each_law([&]<class L>() {
+    if (kLaw<L> == Law{} || kLaw<L> == material.law) part_of<L>(out.hardening) = L::hardening(material);
+  });
   if (off_axis == OffAxis::kUncoupled && c != 0 && s != 0) {
     // No stress in the shears across: what is left of the compliance and of the surface is the rest of each.
     const VoigtMatrix compliance_here = symmetric(Q.transpose() * compliance(material) * Q);

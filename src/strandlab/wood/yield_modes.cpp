@@ -32,11 +32,7 @@ YieldModes<N> yield_modes(const StrandMaterial& material) {
     modes.volume[i] = to(i, 0) + to(i, 1) + to(i, 2);  // eps_e = to^T z
     modes.lambda[i] = yield.eigenvalues()[i] > 1e-12 * yield.eigenvalues()[N - 1] ? yield.eigenvalues()[i] : 0.0;
   }
-  modes.inverse_Y = 1 / material.Y_R;
-  modes.K_over_Y = material.hardening_K / material.Y_R;
-  modes.exponent = material.hardening_n;
-  modes.inverse_exponent = 1 / material.hardening_n;
-  modes.crushing = material.crushing;
+  with_law(material.law(), [&]<class L>() { part_of<L>(modes.laws) = L::rule(part_of<L>(material.hardening)); });
   return modes;
 }
 

@@ -181,7 +181,7 @@ TEST(CaseRead, MaterialsFollowFromTheirSpecies) {
   EXPECT_EQ(m.density_kg_m3, 480);
   EXPECT_DOUBLE_EQ(m.E_T, 600);  // .050 E_L
   EXPECT_DOUBLE_EQ(m.G_RT, 84);  // .007 E_L
-  EXPECT_EQ(m.Y_R, 5);           // of poplar, the base
+  EXPECT_EQ(m.hill.Y_R, 5);      // of poplar, the base
   const auto told = derived_constants(c);
   ASSERT_EQ(told.size(), 1U);
   for (const auto* part : {"material mine: E_T, G_RL,", "E_L = 12000 MPa", "douglas-fir", "Wood Handbook"})

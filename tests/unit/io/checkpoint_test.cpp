@@ -63,10 +63,7 @@ Strand<Dim> any_strand(AnyDouble& any, int row, std::array<int, Dim> points) {
   strand.material.density = any();
   fill(strand.material.stiffness);
   fill(strand.material.yield_surface);
-  strand.material.Y_R = any();
-  strand.material.hardening_K = any();
-  strand.material.hardening_n = any();
-  strand.material.crushing = {any(), any(), any(), any(), any()};
+  strand.material.hardening = {{any(), any(), any()}, {any(), any(), any(), any(), any()}};
   for_each_field<Dim>([&](const auto& field) {
     auto& values = strand.points.*field.values;
     set_zero(values, strand.lattice.size());
@@ -144,9 +141,9 @@ class Bits {
     add(s.material.density);
     add(s.material.stiffness);
     add(s.material.yield_surface);
-    for (const double value : {s.material.Y_R, s.material.hardening_K, s.material.hardening_n}) add(value);
-    const auto& k = s.material.crushing;
-    for (const double value : {k.limit, k.start, k.h1, k.h2, k.exponent}) add(value);
+    const auto& [hill, k] = s.material.hardening;
+    for (const double value : {hill.Y_R, hill.K, hill.n}) add(value);
+    for (const double value : {k.limit, k.x0, k.h1, k.h2, k.exponent}) add(value);
     for_each_field<Dim>([&](const auto& field) {
       for (const auto& value : s.points.*field.values) add(value);
     });

@@ -20,7 +20,7 @@ constexpr double kLoadCell = 0.5;  // mm
 template <int Dim>
 Body<Dim> block_at(const Vec<Dim>& corner) {
   wood::Material stiff = wood::library().front();
-  stiff.Y_R = stiff.Y_T = stiff.S_RT = 1e6;  // never yields
+  stiff.hill.Y_R = stiff.hill.Y_T = stiff.hill.S_RT = 1e6;  // never yields
   std::array<int, Dim> counts{};
   counts.fill(6);
   counts[0] = 8;

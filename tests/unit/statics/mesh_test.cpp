@@ -141,7 +141,7 @@ TEST(PanelStiffness, AssemblesWhatItsEnergySays) {
   const PanelStiffness stiffness(mesh, make_springs(mesh, glue::cure(panel, {}), end_nodes(mesh)));
   const auto u =
       sample(mesh, [](const Vec<2>& x) { return Vec<2>(0.01 * std::sin(x[0] + 3 * x[1]), 0.02 * std::cos(2 * x[0])); });
-  const GlueStiffness glue{70, 300};
+  const glue::BondStiffness glue{70, 300};
   const auto force = multiply(stiffness.with(glue), u);
   double work = 0;
   for (std::size_t i = 0; i < u.size(); ++i) work += 0.5 * force[i] * u[i];

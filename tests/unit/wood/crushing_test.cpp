@@ -28,23 +28,23 @@ const std::vector<double> kCompactions{.1, .2, .3, .4, .5, .6, .65};
 
 // H(x) at 350 kg/m^3, x_L = .7667, to four digits, from the formula by hand.
 TEST(CrushingRadius, FollowsTheFormula) {
-  const auto& law = in_strand_axes(crushing(), 0).crushing;
+  const auto& law = in_strand_axes(crushing(), 0).hardening.crushing;
   EXPECT_DOUBLE_EQ(law.limit, 1 - 350.0 / 1500);
   const std::vector<double> expected{1.092, 1.229, 1.432, 1.760, 2.382, 3.943, 5.989};
   const std::vector<double> at{.1, .2, .3, .4, .5, .6, .65};
   for (std::size_t i = 0; i < at.size(); ++i) {
     double slope = 0, ignored = 0;
-    EXPECT_NEAR(ScalarOps::crushing_radius(law, at[i], slope), expected[i], 0.0005) << at[i];
-    const double h = 1e-6, up = ScalarOps::crushing_radius(law, at[i] + h, ignored),
-                 down = ScalarOps::crushing_radius(law, at[i] - h, ignored);
+    EXPECT_NEAR(Crushing::radius<ScalarOps>(law, at[i], slope), expected[i], 0.0005) << at[i];
+    const double h = 1e-6, up = Crushing::radius<ScalarOps>(law, at[i] + h, ignored),
+                 down = Crushing::radius<ScalarOps>(law, at[i] - h, ignored);
     EXPECT_NEAR(slope, (up - down) / (2 * h), 1e-7 * slope) << at[i];
   }
   double slope = 0;
-  EXPECT_EQ(ScalarOps::crushing_radius(law, 0, slope), 1);
+  EXPECT_EQ(Crushing::radius<ScalarOps>(law, 0.0, slope), 1);
   EXPECT_NEAR(slope, 0.5, 1e-8);  // h1: the power starts flat
   for (const double beyond : {law.limit, law.limit + 1e-9, 0.9}) {
-    EXPECT_GT(ScalarOps::crushing_radius(law, beyond, slope), 1e14);
-    EXPECT_TRUE(std::isfinite(ScalarOps::crushing_radius(law, beyond, slope)));
+    EXPECT_GT(Crushing::radius<ScalarOps>(law, beyond, slope), 1e14);
+    EXPECT_TRUE(std::isfinite(Crushing::radius<ScalarOps>(law, beyond, slope)));
   }
 }
 
@@ -66,14 +66,14 @@ TEST(CrushingPath, ConfinedRadialCompression) {
 // and its x_L is that of 350 kg/m^3.
 TEST(CrushingPath, DensifiedWoodYieldsWhereItsHistoryLeftIt) {
   const auto material = in_strand_axes(crushing(library()[1]), 0);
-  EXPECT_NEAR(material.crushing.start, 0.615, 0.0005);
-  EXPECT_NEAR(material.crushing.limit, 1 - 350.0 / 1500, 1e-15);
+  EXPECT_NEAR(material.start(), 0.615, 0.0005);
+  EXPECT_NEAR(material.hardening.crushing.limit, 1 - 350.0 / 1500, 1e-15);
   Point<4> point(material);
   EXPECT_NEAR(point.J_p(), 0.3846, 0.00005);
   const double u = .6153846 / (.7666667 - .6153846), H = 1 + .5 * .6153846 + .5 * std::pow(u, 1.3);
   Components<4> increment = Components<4>::Zero();
   increment[kThrough] = -1e-5;
-  while (point.history == material.crushing.start) advance_free(point, increment, std::array<int, 2>{kAlong, kAcross});
+  while (point.history == material.start()) advance_free(point, increment, std::array<int, 2>{kAlong, kAcross});
   EXPECT_NEAR(-point.cauchy(kThrough), 3 * H, 0.003 * H);
 }
 
@@ -81,14 +81,14 @@ TEST(CrushingPath, DensifiedWoodYieldsWhereItsHistoryLeftIt) {
 // path is that of Hill's law without hardening.
 TEST(CrushingLimit, IsHillsFunction) {
   Material hill = library()[0];
-  hill.hardening_K = 0;
+  hill.hill.K = 0;
   Material m = hill;
   m.law = Law::kCrushing;
-  m.crushing.Y_L = hill.Y_L;
-  m.crushing.Y_R = m.crushing.Y_T = hill.Y_R;
-  m.crushing.S_RT = hill.S_RT;
-  m.crushing.S_RL = hill.S_RL;
-  m.crushing.S_TL = hill.S_TL;
+  m.crushing.Y_L = hill.hill.Y_L;
+  m.crushing.Y_R = m.crushing.Y_T = hill.hill.Y_R;
+  m.crushing.S_RT = hill.hill.S_RT;
+  m.crushing.S_RL = hill.hill.S_RL;
+  m.crushing.S_TL = hill.hill.S_TL;
   m.crushing.c = 1;
   validate(m);
   RandomStream random(7, 0);
@@ -130,9 +130,9 @@ std::vector<StrandMaterial> crushing_kinds() {
 // 2 %.
 Point<6> random_state(const StrandMaterial& material, RandomStream& random) {
   Point<6> point(material);
-  const auto& law = material.crushing;
-  point.history = law.limit - (law.limit - law.start) * random.uniform();
-  point.ln_J = std::log((1 - point.history) / (1 - law.start)) + (random.uniform() < 0.5 ? 0 : 0.3 * random.uniform());
+  const auto& law = material.hardening.crushing;
+  point.history = law.limit - (law.limit - law.x0) * random.uniform();
+  point.ln_J = std::log((1 - point.history) / (1 - law.x0)) + (random.uniform() < 0.5 ? 0 : 0.3 * random.uniform());
   point.radius = point.hardened();
   for (int i = 0; i < 3; ++i) point.advance(random_strain(random, 0.02));
   return point;
@@ -141,13 +141,13 @@ Point<6> random_state(const StrandMaterial& material, RandomStream& random) {
 // A point on the surface, compressed in a random direction to within 1 to .01 % of the limit: stresses of GPa.
 Point<6> dense_state(const StrandMaterial& material, RandomStream& random) {
   Point<6> point(material);
-  const auto& law = material.crushing;
+  const auto& law = material.hardening.crushing;
   point.history = law.limit - std::pow(10, -2 - 2 * random.uniform());
   point.radius = point.hardened();
   Components<6> direction = random_strain(random, 1);
   const double volume = point.C.ldlt().solve(direction).head<3>().sum();
   if (volume > 0) direction = -direction;
-  const double q = std::sqrt(direction.dot(point.P * direction)), J_p = (1 - point.history) / (1 - law.start);
+  const double q = std::sqrt(direction.dot(point.P * direction)), J_p = (1 - point.history) / (1 - law.x0);
   double low = 0, high = J_p * point.radius / q;  // of the stress: q s = J_p J_e(s) radius with J_e <= 1
   for (int i = 0; i < 200; ++i) {
     const double s = 0.5 * (low + high);
@@ -174,8 +174,8 @@ TEST(CrushingReturn, AnyStrainIncrementUpToFivePerCent) {
       ASSERT_FALSE(testing::Test::HasFailure()) << trial;
       if (!yields) continue;
       ++yielded;
-      dense += point.history > material.crushing.limit - 0.01;
-      ASSERT_LT(point.history, material.crushing.limit);
+      dense += point.history > material.hardening.crushing.limit - 0.01;
+      ASSERT_LT(point.history, material.hardening.crushing.limit);
       ASSERT_NEAR(point.history, std::max(before.history, 1 - point.J_p()), 1e-12);
     }
   }
@@ -192,10 +192,10 @@ TEST(CrushingReturn, SmallStepsEndOnTheSurface) {
   for (const auto& material : crushing_kinds()) {
     for (int trial = 0; trial < 1000; ++trial) {
       Point<6> point(material);
-      const auto& law = material.crushing;
+      const auto& law = material.hardening.crushing;
       const double share = std::exp(std::log(1e-3) + random.uniform() * std::log(0.995 / 1e-3));
-      point.history = std::max(law.start, law.limit * share);
-      point.ln_J = std::log((1 - point.history) / (1 - law.start));
+      point.history = std::max(law.x0, law.limit * share);
+      point.ln_J = std::log((1 - point.history) / (1 - law.x0));
       point.radius = point.hardened();
       Components<6> squeeze = -random_strain(random, 1).cwiseAbs();
       point.advance(0.1 * squeeze);  // onto the surface
@@ -224,7 +224,7 @@ TEST(CrushingReturn, OneStepOfFivePerCentEqualsAThousand) {
     EXPECT_NEAR(once.history, often.history, 0.01 * often.history + 1e-12) << strain.transpose();
     EXPECT_GE(work, 0);
     EXPECT_GE(sum, 0);
-    crushed += often.history > often.modes.crushing.start;
+    crushed += often.history > often.modes.laws.crushing.x0;
   };
   for (const auto& material : crushing_kinds()) {
     const Point<6> start(material);

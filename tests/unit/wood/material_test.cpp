@@ -39,7 +39,7 @@ TEST(Library, HoldsTheTwoMaterialsOfTheSource) {
   EXPECT_EQ(p.name, "poplar");
   EXPECT_EQ(p.density_kg_m3, 350);
   EXPECT_EQ(p.E_L, 9936);
-  EXPECT_EQ(p.S_RT, 2.5);
+  EXPECT_EQ(p.hill.S_RT, 2.5);
   EXPECT_EQ(v.name, "vtc");
   EXPECT_EQ(v.density_kg_m3, 910);
   EXPECT_EQ(v.E_L, 24311);
@@ -48,7 +48,7 @@ TEST(Library, HoldsTheTwoMaterialsOfTheSource) {
   EXPECT_EQ(v.G_RL, 1616);
   EXPECT_EQ(v.G_TL, 1486);
   EXPECT_EQ(v.G_RT, 235);
-  EXPECT_EQ(v.S_RT, 10);
+  EXPECT_EQ(v.hill.S_RT, 10);
   for (const auto& m : library()) EXPECT_NO_THROW(validate(m)) << m.name;
 }
 
@@ -107,10 +107,10 @@ TEST(StrandAxes, CoreStrandIsAPermutation) {
 // with full 3 x 3 tensors turned by the angle, which shares nothing with the 6 x 6 rotation.
 TEST(StrandAxes, EnergyAndYieldFunctionAreInvariant) {
   Material m = poplar();
-  m.Y_L = 40;  // every entry of the Hill matrix takes part
-  m.Y_T = 4.8;
-  m.S_RL = 6;
-  m.S_TL = 7;
+  m.hill.Y_L = 40;  // every entry of the Hill matrix takes part
+  m.hill.Y_T = 4.8;
+  m.hill.S_RL = 6;
+  m.hill.S_TL = 7;
   validate(m);
   Tensor<3> strain;
   strain << 0.01, 0.004, -0.003, 0.004, -0.02, 0.006, -0.003, 0.006, 0.015;
@@ -141,12 +141,12 @@ TEST(StrandAxes, EnergyAndYieldFunctionAreInvariant) {
 // R and T compression with Y_R = Y_T, Y_L infinite never does.
 TEST(Hill, YieldStressesLieOnTheSurface) {
   Material m = poplar();
-  m.Y_L = 40;
-  m.Y_T = 4.8;
-  m.S_RL = 6;
-  m.S_TL = 7;
+  m.hill.Y_L = 40;
+  m.hill.Y_T = 4.8;
+  m.hill.S_RL = 6;
+  m.hill.S_TL = 7;
   const VoigtMatrix P = in_strand_axes(m, 0).yield_surface;
-  const double yields[6] = {m.Y_L, m.Y_T, m.Y_R, m.S_RT, m.S_RL, m.S_TL};
+  const double yields[6] = {m.hill.Y_L, m.hill.Y_T, m.hill.Y_R, m.hill.S_RT, m.hill.S_RL, m.hill.S_TL};
   for (int i = 0; i < 6; ++i) EXPECT_DOUBLE_EQ(P(i, i) * yields[i] * yields[i], 1) << i;
   Voigt pressure;
   pressure << 1, 1, 1, 0, 0, 0;
@@ -167,9 +167,9 @@ TEST(Hill, InfiniteYieldLeavesZeros) {
 TEST(StrandAxes, CarriesDensityAndHardening) {
   const auto s = in_strand_axes(library()[1], 30);
   EXPECT_DOUBLE_EQ(s.density, 910e-12);
-  EXPECT_EQ(s.Y_R, 5);
-  EXPECT_EQ(s.hardening_K, 120);
-  EXPECT_EQ(s.hardening_n, 4);
+  EXPECT_EQ(s.hardening.hill.Y_R, 5);
+  EXPECT_EQ(s.hardening.hill.K, 120);
+  EXPECT_EQ(s.hardening.hill.n, 4);
 }
 
 // The same invariance for the law that crushes; its surface sees pressure.
@@ -197,7 +197,7 @@ TEST(Crushing, YieldFunctionIsInvariantAndSeesPressure) {
     const Voigt here = voigt(stress), there = voigt(axes.transpose() * stress * axes);
     const auto strand = in_strand_axes(m, angle);
     EXPECT_NEAR(here.dot(strand.yield_surface * here), there.dot(wood.yield_surface * there), 1e-12) << angle;
-    EXPECT_EQ(strand.crushing.limit, wood.crushing.limit);
+    EXPECT_EQ(strand.hardening.crushing.limit, wood.hardening.crushing.limit);
   }
   Voigt pressure;
   pressure << 1, 1, 1, 0, 0, 0;
@@ -291,22 +291,23 @@ INSTANTIATE_TEST_SUITE_P(
                       m.nu_TR = 0.95 * 0.6835;
                     },
                     {"not positive definite", "other Poisson ratios as given", "nu_TR = 0.649"}},
-        BadMaterial{"ZeroYield", [](Material& m) { m.S_RT = 0; }, {"S_RT = 0", "positive"}},
-        BadMaterial{"NegativeYield", [](Material& m) { m.Y_L = -8; }, {"Y_L = -8", "positive"}},
-        BadMaterial{"InfiniteRadialYield", [](Material& m) { m.Y_R = m.Y_T = kUnbounded; }, {"Y_R must be finite"}},
+        BadMaterial{"ZeroYield", [](Material& m) { m.hill.S_RT = 0; }, {"S_RT = 0", "positive"}},
+        BadMaterial{"NegativeYield", [](Material& m) { m.hill.Y_L = -8; }, {"Y_L = -8", "positive"}},
+        BadMaterial{
+            "InfiniteRadialYield", [](Material& m) { m.hill.Y_R = m.hill.Y_T = kUnbounded; }, {"Y_R must be finite"}},
         BadMaterial{"HillWithInfiniteL",
-                    [](Material& m) { m.Y_T = 5.1; },
+                    [](Material& m) { m.hill.Y_T = 5.1; },
                     {"not positive semi-definite", "Y_R = 5", "Y_T = 5.1", "|1/Y_R - 1/Y_T| <= 1/Y_L"}},
         BadMaterial{"HillWithFiniteL",
                     [](Material& m) {
-                      m.Y_L = 40;
-                      m.Y_T = 4;
+                      m.hill.Y_L = 40;
+                      m.hill.Y_T = 4;
                     },
                     {"not positive semi-definite", "|1/Y_R - 1/Y_T| <= 1/Y_L"}},  // .05 > .025
         BadMaterial{"HillWeakGrain",
-                    [](Material& m) { m.Y_L = 2; },
+                    [](Material& m) { m.hill.Y_L = 2; },
                     {"not positive semi-definite", "Y_L = 2", "1/Y_L <= 1/Y_R + 1/Y_T"}},
-        BadMaterial{"NegativeHardening", [](Material& m) { m.hardening_K = -1; }, {"hardening_K = -1"}},
+        BadMaterial{"NegativeHardening", [](Material& m) { m.hill.K = -1; }, {"hardening_K = -1"}},
         BadMaterial{"CrushingYield",
                     [](Material& m) {
                       m.law = Law::kCrushing;
@@ -343,8 +344,7 @@ INSTANTIATE_TEST_SUITE_P(
                       m.density_kg_m3 = 1500;
                     },
                     {"density_kg_m3 = 1500", "nothing to crush", "1500"}},
-        BadMaterial{
-            "HardeningExponent", [](Material& m) { m.hardening_n = 0.5; }, {"hardening_n = 0.5", "at least 1"}}),
+        BadMaterial{"HardeningExponent", [](Material& m) { m.hill.n = 0.5; }, {"hardening_n = 0.5", "at least 1"}}),
     [](const auto& tested) { return tested.param.name; });
 
 // The limits themselves: just inside is accepted, and there the smallest eigenvalues are what the rules say.
@@ -360,8 +360,8 @@ TEST(Validate, RulesAreSharp) {
   EXPECT_THROW(validate(m), InputError);
 
   Material hill = poplar();
-  hill.Y_L = 40;
-  hill.Y_T = 1 / (1 / hill.Y_R + 1 / hill.Y_L);  // exactly on |1/Y_R - 1/Y_T| = 1/Y_L
+  hill.hill.Y_L = 40;
+  hill.hill.Y_T = 1 / (1 / hill.hill.Y_R + 1 / hill.hill.Y_L);  // exactly on |1/Y_R - 1/Y_T| = 1/Y_L
   EXPECT_NO_THROW(validate(hill));
   const VoigtMatrix P = in_strand_axes(hill, 0).yield_surface;
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<VoigtMatrix>(P).eigenvalues()[0], -1e-15);

@@ -24,7 +24,8 @@ inline constexpr int kAlong = 0, kAcross = 1, kThrough = 2, kThroughShear = 3;  
 // Trial stress, total J, return.
 template <int N>
 struct Point {
-  explicit Point(const StrandMaterial& material) : modes(yield_modes<N>(material)) {
+  explicit Point(const StrandMaterial& material)
+      : modes(yield_modes<N>(material)), law(material.law()), history(material.start()) {
     for (int i = 0; i < N; ++i) {
       for (int j = 0; j < N; ++j) {
         C(i, j) = material.stiffness(kModeToVoigt[i], kModeToVoigt[j]);
@@ -37,30 +38,32 @@ struct Point {
     const Components<N> trial = tau + C * increment;
     double t[N];
     for (int i = 0; i < N; ++i) t[i] = trial[i];
-    const double work = crushes() ? return_map<CrushingLaw, ScalarOps, N>(modes, t, J(), history, radius)
-                                  : return_map<HillLaw, ScalarOps, N>(modes, t, J(), history, radius);
+    const double work =
+        with_law(law, [&]<class L>() { return return_map<L, ScalarOps, N>(modes, t, J(), history, radius); });
     for (int i = 0; i < N; ++i) tau[i] = t[i];
     return work;
   }
   double J() const { return std::exp(ln_J); }
   double cauchy(int i) const { return tau[i] / J(); }
-  bool crushes() const { return modes.crushing.limit > 0; }
+  bool crushes() const { return law == Law::kCrushing; }
   // Plastic volume ratio since the wood was uncrushed.
   double J_p() const {
-    return (1 - modes.crushing.start) * J() * std::exp(-C.ldlt().solve(tau).template head<3>().sum());
+    return (1 - modes.laws.crushing.x0) * J() * std::exp(-C.ldlt().solve(tau).template head<3>().sum());
   }
   // Radius of the surface from the definitions of the two laws.
   double hardened() const {
-    if (!crushes()) return 1 + modes.K_over_Y * std::pow(history, modes.exponent);
-    const auto& k = modes.crushing;
+    if (!crushes()) return 1 + modes.laws.hill.K_over_Y * std::pow(history, modes.laws.hill.exponent);
+    const auto& k = modes.laws.crushing;
     return 1 + k.h1 * history + k.h2 * std::pow(history / (k.limit - history), k.exponent);
   }
   double f() const { return std::sqrt(tau.dot(P * tau)) / J() - hardened(); }
 
   YieldModes<N> modes;
+  Law law;
   Matrix<N> C, P;
   Components<N> tau = Components<N>::Zero();
-  double ln_J = 0, history = modes.crushing.start, radius = hardened();  // history: alpha of Hill's law, x of crushing
+  double ln_J = 0, history;  // history: alpha of Hill's law, x of crushing
+  double radius = hardened();
 };
 
 // Advances with the components in `free` at zero stress: their strain increments by Newton's method with differences.

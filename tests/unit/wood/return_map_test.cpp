@@ -56,9 +56,9 @@ void expect_pure_shear(const StrandMaterial& material, int component) {
     gamma += 5e-4;
     point.advance(increment);
     if (point.history == 0) continue;
-    const double tau = m.S_RT * (1 + m.hardening_K / m.Y_R * std::pow(point.history, 4));
+    const double tau = m.hill.S_RT * (1 + m.hill.K / m.hill.Y_R * std::pow(point.history, 4));
     ASSERT_NEAR(point.tau[component], tau, 1e-9 * tau);
-    ASSERT_NEAR(point.history, (gamma - tau / m.G_RT) * m.S_RT / m.Y_R, 1e-12);
+    ASSERT_NEAR(point.history, (gamma - tau / m.G_RT) * m.hill.S_RT / m.hill.Y_R, 1e-12);
     for (int k = 0; k < N; ++k) {
       const double other = k == component ? 0 : point.tau[k];
       ASSERT_NEAR(other, 0, 1e-9) << k;
@@ -79,13 +79,13 @@ std::vector<StrandMaterial> hill_kinds() {
   std::vector<StrandMaterial> out;
   for (Material m : library()) {
     for (const double angle : {0.0, 30.0, 90.0}) out.push_back(in_strand_axes(m, angle));
-    m.Y_L = 40;
-    m.S_RL = 6;
-    m.S_TL = 7;
-    m.hardening_n = 1;
+    m.hill.Y_L = 40;
+    m.hill.S_RL = 6;
+    m.hill.S_TL = 7;
+    m.hill.n = 1;
     out.push_back(in_strand_axes(m, -57));
-    m.hardening_n = 2.5;
-    m.hardening_K = 0;
+    m.hill.n = 2.5;
+    m.hill.K = 0;
     out.push_back(in_strand_axes(m, 12));
   }
   return out;
@@ -131,7 +131,7 @@ TEST(ReturnMap, AnyStrainIncrementUpToFivePerCent) {
       ++yielded;
       const double growth = point.history - before.history;
       ASSERT_GT(growth, 0);
-      ASSERT_NEAR(growth, flow.mu * flow.q * point.modes.inverse_Y, 1e-9 * growth + 1e-14);
+      ASSERT_NEAR(growth, flow.mu * flow.q * point.modes.laws.hill.inverse_Y, 1e-9 * growth + 1e-14);
     }
   }
   EXPECT_GT(yielded, 10000);
@@ -144,9 +144,9 @@ TEST(ReturnMap, IsInvariantUnderTheStrandAngle) {
   for (const Law law : {Law::kHill, Law::kCrushing}) {
     Material m = library()[0];
     m.law = law;
-    m.Y_L = 40;
-    m.S_RL = 6;
-    m.S_TL = 7;
+    m.hill.Y_L = 40;
+    m.hill.S_RL = 6;
+    m.hill.S_TL = 7;
     for (const double angle : {-70.0, 15.0, 45.0}) {
       const double t = angle * M_PI / 180;
       Tensor<3> turn;  // columns: wood axes in strand axes

@@ -35,7 +35,7 @@ TEST(Species, RatiosScaleWithTheAxialModulus) {
     const auto m = with_ratios(own, s);
     EXPECT_EQ(m.E_L, 12000);
     EXPECT_EQ(m.density_kg_m3, 500);
-    EXPECT_EQ(m.Y_R, own.Y_R);
+    EXPECT_EQ(m.hill.Y_R, own.hill.Y_R);
     EXPECT_DOUBLE_EQ(m.E_R, 12000 * s.E_R) << s.name;
     EXPECT_NEAR(m.nu_RL / m.E_R, s.nu_LR / m.E_L, 1e-18) << s.name;
     EXPECT_NEAR(m.nu_TL / m.E_T, s.nu_LT / m.E_L, 1e-18) << s.name;
@@ -75,9 +75,9 @@ TEST(Softened, ScalesYieldExactlyAndKeepsElasticity) {
       const auto a = in_strand_axes(material, angle), b = in_strand_axes(soft, angle);
       EXPECT_EQ(b.stiffness, a.stiffness);
       EXPECT_LT((b.yield_surface - 4 * a.yield_surface).norm(), 1e-15 * a.yield_surface.norm()) << angle;
-      EXPECT_EQ(b.Y_R, .5 * a.Y_R);
-      EXPECT_EQ(b.hardening_K, .5 * a.hardening_K);
-      EXPECT_EQ(b.hardening_n, a.hardening_n);
+      EXPECT_EQ(b.hardening.hill.Y_R, .5 * a.hardening.hill.Y_R);
+      EXPECT_EQ(b.hardening.hill.K, .5 * a.hardening.hill.K);
+      EXPECT_EQ(b.hardening.hill.n, a.hardening.hill.n);
     }
   }
 }

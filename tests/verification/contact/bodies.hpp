@@ -18,8 +18,8 @@ inline wood::StrandMaterial elastic_material(double modulus_MPa, double poisson)
   m.E_L = m.E_R = m.E_T = modulus_MPa;
   m.nu_RL = m.nu_TL = m.nu_TR = poisson;
   m.G_RL = m.G_TL = m.G_RT = modulus_MPa / (2 * (1 + poisson));
-  m.Y_L = m.Y_R = m.Y_T = 1e9;
-  m.S_RT = m.S_RL = m.S_TL = 1e9;
+  m.hill.Y_L = m.hill.Y_R = m.hill.Y_T = 1e9;
+  m.hill.S_RT = m.hill.S_RL = m.hill.S_TL = 1e9;
   return wood::in_strand_axes(m, 0);
 }
 

@@ -16,14 +16,14 @@ inline wood::StrandMaterial isotropic(double E, double nu, double density_kg_m3)
   m.E_L = m.E_R = m.E_T = E;
   m.G_RL = m.G_TL = m.G_RT = E / (2 * (1 + nu));
   m.nu_RL = m.nu_TL = m.nu_TR = nu;
-  m.Y_R = m.Y_T = m.S_RT = 1e6;
+  m.hill.Y_R = m.hill.Y_T = m.hill.S_RT = 1e6;
   return wood::in_strand_axes(m, 0);
 }
 
 // Poplar that does not yield, its grain at an angle to the section.
 inline wood::StrandMaterial elastic_poplar(double angle_deg) {
   wood::Material m = wood::library()[0];
-  m.Y_R = m.Y_T = m.S_RT = 1e6;
+  m.hill.Y_R = m.hill.Y_T = m.hill.S_RT = 1e6;
   return wood::in_strand_axes(m, angle_deg);
 }
 

@@ -15,7 +15,7 @@ namespace strandlab::press_tests {
 
 inline wood::Material poplar(bool yields) {
   wood::Material m = wood::library().front();
-  if (!yields) m.Y_L = m.Y_R = m.Y_T = m.S_RT = m.S_RL = m.S_TL = 1e9;
+  if (!yields) m.hill.Y_L = m.hill.Y_R = m.hill.Y_T = m.hill.S_RT = m.hill.S_RL = m.hill.S_TL = 1e9;
   return m;
 }
 
@@ -51,7 +51,7 @@ class ConfinedStrand {
     for (int i = 0; i < 200; ++i) {
       const double p = 0.5 * (low + high);
       const Eigen::Vector3d s = stress(C, p);
-      const bool yields = s[2] - s[1] > material_.Y_R + material_.hardening_K * std::pow(p, material_.hardening_n);
+      const bool yields = s[2] - s[1] > material_.hill.Y_R + material_.hill.K * std::pow(p, material_.hill.n);
       (yields ? low : high) = p;
     }
     return -stress(C, low)[1];

@@ -21,7 +21,7 @@ constexpr double kApart = 4 * kCellY;                            // mm, between 
 
 Panel<2> unyielding_panel(const mat::Mat& mat) {
   auto kinds = kinds_of_poplar();
-  for (auto& kind : kinds) kind.material.Y_R = kind.material.Y_T = kind.material.S_RT = 1e6;
+  for (auto& kind : kinds) kind.material.hill.Y_R = kind.material.hill.Y_T = kind.material.hill.S_RT = 1e6;
   return make_panel(mat, kinds, kAlong, 6);
 }
 

@@ -66,10 +66,9 @@ STRANDLAB_INLINE double largest(const Pack& a) {
   for (int l = 1; l < kLanes; ++l) r = a[l] > r ? a[l] : r;
   return r;
 }
-STRANDLAB_INLINE Pack hardening_slope(double K_over_Y, double n, const Pack& alpha) {
-  if (n == 4) return 4 * K_over_Y * (alpha * alpha * alpha);
+STRANDLAB_INLINE Pack library_power(const Pack& base, double exponent) {
   Pack r;
-  for (int l = 0; l < kLanes; ++l) r[l] = n * K_over_Y * __builtin_pow(alpha[l] > 0 ? alpha[l] : 0.0, n - 1);
+  for (int l = 0; l < kLanes; ++l) r[l] = __builtin_pow(base[l], exponent);
   return r;
 }
 
@@ -138,12 +137,8 @@ struct PackOps {
   STRANDLAB_INLINE static Pack power(const Pack& base, double exponent) {
     return STRANDLAB_ISA::exponential(exponent * STRANDLAB_ISA::logarithm(base));
   }
-  STRANDLAB_INLINE static Pack hardening_slope(double K_over_Y, double n, const Pack& alpha) {
-    return STRANDLAB_ISA::hardening_slope(K_over_Y, n, alpha);
-  }
-  // One function for all its uses: what a restart computes from the history variable is what the run had, to the bit.
-  [[gnu::noinline]] static Pack crushing_radius(const wood::CrushingHardening& h, const Pack& x, Pack& slope) {
-    return wood::crushing_radius<PackOps>(h, x, slope);
+  STRANDLAB_INLINE static Pack library_power(const Pack& base, double exponent) {
+    return STRANDLAB_ISA::library_power(base, exponent);
   }
 };
 

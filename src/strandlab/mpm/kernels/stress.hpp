@@ -8,7 +8,7 @@ namespace strandlab::mpm::STRANDLAB_ISA {
 namespace {
 
 // Elastic trial stress and plastic correction; returns the dissipation per reference volume and adds dtau : d eps.
-template <class Law, int N>
+template <class L, int N>
 STRANDLAB_INLINE Pack update_stress(const wood::YieldModes<N>& modes, const Pack (&strain)[6], const Pack& J,
                                     double* block, int stress, int plastic, Pack& stress_change, long long& yielding,
                                     Mask& finite) {
@@ -21,7 +21,7 @@ STRANDLAB_INLINE Pack update_stress(const wood::YieldModes<N>& modes, const Pack
   }
   finite = (size < kLargestStress) & (J > 1e-6);
   Pack history = load(block + plastic * kBlock), radius = load(block + (plastic + 1) * kBlock);
-  const Pack dissipation = wood::return_map<Law, PackOps, N>(modes, tau, J, history, radius);
+  const Pack dissipation = wood::return_map<L, PackOps, N>(modes, tau, J, history, radius);
   const Mask flowing = dissipation > 0.0;
   if (any(flowing)) {
     store(block + plastic * kBlock, history);
@@ -41,24 +41,27 @@ template <int Dim>
 STRANDLAB_INLINE Pack update_stress(const BodyView<Dim>& body, const Pack (&strain)[6], const Pack& J, double* block,
                                     Pack& stress_change, long long& yielding, Mask& finite) {
   using C = Component<Dim>;
-  const auto update = [&]<class Law, int N>(const wood::YieldModes<N>& modes, Law) __attribute__((always_inline)) {
-    return update_stress<Law, N>(modes, strain, J, block, C::stress, C::plastic(N), stress_change, yielding, finite);
-  };
-  if (body.components == 4) {
-    return body.crushes ? update(*body.modes4, wood::CrushingLaw{}) : update(*body.modes4, wood::HillLaw{});
-  }
-  return body.crushes ? update(*body.modes6, wood::CrushingLaw{}) : update(*body.modes6, wood::HillLaw{});
+  return wood::with_law(
+      body.law, [&]<class L>() __attribute__((always_inline)) {
+        const auto update = [&]<int N>(const wood::YieldModes<N>& modes) __attribute__((always_inline)) {
+          return update_stress<L, N>(modes, strain, J, block, C::stress, C::plastic(N), stress_change, yielding,
+                                     finite);
+        };
+        return body.components == 4 ? update(*body.modes4) : update(*body.modes6);
+      });
 }
 
 template <int Dim>
 void set_radius(const BodyView<Dim>& body, int blocks) {
   using C = Component<Dim>;
-  const auto& crushing = body.components == 4 ? body.modes4->crushing : body.modes6->crushing;
+  const auto& laws = body.components == 4 ? body.modes4->laws : body.modes6->laws;
   for (int b = 0; b < blocks; ++b) {
     double* plastic =
         body.blocks + (static_cast<long>(b) * C::count(body.components) + C::plastic(body.components)) * kBlock;
-    Pack slope;
-    store(plastic + kBlock, PackOps::crushing_radius(crushing, load(plastic), slope));
+    wood::with_law(
+        body.law, [&]<class L>() __attribute__((always_inline)) {
+          store(plastic + kBlock, L::template radius<PackOps>(wood::part_of<L>(laws), load(plastic)));
+        });
   }
 }
 

@@ -1,0 +1,36 @@
+// The bond of a glue line: how far its two faces move against each other under stress.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace strandlab::glue {
+
+// Compliances, mm/MPa: [u_t] = tau/D_t along the line, [u_n] = sigma/D_n across it; measured ones in Le (2010), Table
+// 2.1. 0 is a perfect bond, whose faces do not move against each other. A negative one, as tests of an interphase
+// stiffer than wood give it, is taken as perfect.
+struct Bond {
+  double compliance_t = 0;  // 1/D_t
+  double compliance_n = 0;  // 1/D_n
+};
+
+// The compliance that a bond has where this one is given: itself, or 0 where it is negative.
+double taken(double compliance_mm_per_MPa);
+
+// Softest glue line, MPa/mm: below it strands slide freely and there is no panel to solve for. Judgement: 7000 times
+// softer than the softest bond of that table, .146 mm/MPa.
+inline constexpr double kSoftest = 1e-3;
+
+// A bond as springs, per area.
+struct BondStiffness {
+  double tangential = 0, normal = 0;          // MPa/mm
+  bool perfect_t = false, perfect_n = false;  // then the stiffness is that of a penalty
+};
+
+// No softer than kSoftest. `penalty` (MPa/mm) is the stiffness that stands for a perfect bond, and for one as stiff.
+BondStiffness stiffness(const Bond& bond, double penalty);
+
+// What is not taken as it is given (a negative compliance, one beyond the softest), as sentences.
+std::vector<std::string> remarks(const Bond& bond);
+
+}  // namespace strandlab::glue

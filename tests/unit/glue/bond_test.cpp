@@ -1,0 +1,48 @@
+// What a glue line's compliances mean: perfect, negative, softer than the floor, stiffer than the penalty.
+#include "strandlab/glue/bond.hpp"
+
+#include <gtest/gtest.h>
+
+namespace strandlab::glue {
+namespace {
+
+constexpr double kPenalty = 1e6;  // MPa/mm
+
+TEST(Bond, HasTheInverseOfItsCompliances) {
+  const auto s = stiffness({0.0125, 0.002}, kPenalty);
+  EXPECT_DOUBLE_EQ(s.tangential, 80);
+  EXPECT_DOUBLE_EQ(s.normal, 500);
+  EXPECT_FALSE(s.perfect_t || s.perfect_n);
+  EXPECT_TRUE(remarks({0.0125, 0.002}).empty());
+}
+
+// A perfect bond is the penalty's, and so is one that would be stiffer than it.
+TEST(Bond, IsPerfectAtNoCompliance) {
+  for (const double none : {0.0, 1e-7}) {
+    const auto s = stiffness({none, 0.002}, kPenalty);
+    EXPECT_EQ(s.tangential, kPenalty);
+    EXPECT_TRUE(s.perfect_t);
+    EXPECT_FALSE(s.perfect_n);
+  }
+}
+
+TEST(Bond, IsPerfectWhereItsComplianceIsNegativeAndSaysSo) {
+  EXPECT_EQ(taken(-0.001), 0);
+  EXPECT_EQ(taken(0.001), 0.001);
+  EXPECT_TRUE(stiffness({0.01, -0.001}, kPenalty).perfect_n);
+  const auto sentences = remarks({0.01, -0.001});
+  ASSERT_EQ(sentences.size(), 1U);
+  EXPECT_EQ(sentences[0], "The glue compliance 1/D_n = -0.001 mm/MPa is negative; it is taken as a perfect bond.");
+}
+
+TEST(Bond, IsNoSofterThanTheFloorAndSaysSo) {
+  EXPECT_EQ(stiffness({2000, 0}, kPenalty).tangential, kSoftest);
+  EXPECT_EQ(stiffness({1000, 0}, kPenalty).tangential, kSoftest);
+  EXPECT_TRUE(remarks({1000, 0}).empty());
+  const auto sentences = remarks({2000, 0});
+  ASSERT_EQ(sentences.size(), 1U);
+  EXPECT_NE(sentences[0].find("D_t = 0.0005 MPa/mm is raised to 0.001"), std::string::npos) << sentences[0];
+}
+
+}  // namespace
+}  // namespace strandlab::glue
