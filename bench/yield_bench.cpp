@@ -35,9 +35,10 @@ double cost(const wood::Material& wood, double angle_deg, double strain, double&
   for (int i = 0; i < 40; ++i) press(-0.005);
   double best = 1e300;
   for (int r = 0; r < kRepeats; ++r) {
-    const double before = engine.timing().material;
+    const double before = engine.timing().phases.material;
     for (int i = 0; i < kSteps; ++i) press(-strain);
-    const double ns = 1e9 * (engine.timing().material - before) / (static_cast<double>(engine.particles()) * kSteps);
+    const double ns =
+        1e9 * (engine.timing().phases.material - before) / (static_cast<double>(engine.particles()) * kSteps);
     best = std::min(best, ns);
   }
   yielding = engine.timing().plastic_fraction;

@@ -7,7 +7,7 @@
 namespace strandlab::benchmark {
 namespace {
 
-nlohmann::json to_json(const Phases& p) {
+nlohmann::json to_json(const mpm::Phases& p) {
   return {{"weights", p.weights}, {"scatter", p.scatter}, {"surface", p.surface},  {"grid", p.grid},
           {"contact", p.contact}, {"gather", p.gather},   {"material", p.material}};
 }
@@ -30,7 +30,7 @@ nlohmann::json to_json(const Result& r) {
           {"press_phases_ns", to_json(r.press_phases)}};
 }
 
-std::string phases_text(const char* name, const Phases& p) {
+std::string phases_text(const char* name, const mpm::Phases& p) {
   return fmt::format(
       "    {:<10} weights {:.1f}  scatter {:.1f}  surface {:.1f}  grid {:.1f}  contact {:.1f}  gather {:.1f}  material "
       "{:.1f}\n",

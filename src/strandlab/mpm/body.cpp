@@ -1,4 +1,4 @@
-#include "strandlab/mpm/engine.hpp"
+#include "strandlab/mpm/body.hpp"
 
 namespace strandlab::mpm {
 namespace {

@@ -7,16 +7,17 @@
 #include <cmath>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/members.hpp"
 #include "strandlab/core/thread_team.hpp"
 #include "strandlab/mpm/checks.hpp"
 #include "strandlab/mpm/colouring.hpp"
 #include "strandlab/mpm/fields.hpp"
+#include "strandlab/mpm/loads.hpp"
 #include "strandlab/mpm/particles.hpp"
 #include "strandlab/mpm/rollers.hpp"
-#include "strandlab/mpm/springs.hpp"
+#include "strandlab/mpm/sums.hpp"
 #include "strandlab/mpm/tiles.hpp"
 #include "strandlab/mpm/time_step.hpp"
-#include "strandlab/mpm/tractions.hpp"
 #include "strandlab/mpm/velocity_filter.hpp"
 
 namespace strandlab::mpm {
@@ -51,18 +52,16 @@ struct Engine<Dim>::Impl {
   Fields fields;
   std::vector<BodyView<Dim>> views;
   std::vector<PencilResult> pencil_results;
-  Tractions<Dim> tractions;
-  Springs<Dim> springs;
+  Loads<Dim> loads;
   VelocityFilter filter;
   bool has_platens = false;
-  Vec<Dim> gravity = Vec<Dim>::Zero();
   EngineState state;
   double first_time_step = 0;
   std::array<double, 3> furthest{};  // cells that a particle moved at most in the last step, per axis
   std::array<double, 3> drift{};     // cells that points may have moved since the windows were laid, per axis
   bool windows_valid = false;
   double force[2] = {0, 0};  // N, of the bottom and top platens
-  Timing timing;             // in ticks
+  Phases ticks_by_phase{};
   double timing_ticks = 0, timing_seconds = 0;
   double yield_visits = 0;
   long long particle_steps = 0;
@@ -80,7 +79,7 @@ struct Engine<Dim>::Impl {
     }
     plan = sort_by_colour(tiles);
     tile_results.resize(tiles.size());
-    tractions = Tractions<Dim>(input);
+    std::get<Tractions<Dim>>(loads) = Tractions<Dim>(input);
     state.time_step_s = first_time_step = time_step();
   }
 
@@ -94,7 +93,6 @@ struct Engine<Dim>::Impl {
     for (int a = 0; a < Dim; ++a) {
       f.origin[a] = grid.origin[a];
       f.cell[a] = grid.cell[a];
-      f.gravity[a] = gravity[a];
       for (int side = 0; side < 2; ++side) {
         f.wall[a][side] = kNoWall;
         if (a < Dim - 1 && grid.sides[a][side] == Side::kRoller) {
@@ -151,13 +149,11 @@ struct Engine<Dim>::Impl {
     if (windows_stale()) make_windows();
     const Frame<Dim> f = frame();
     scatter(f);
-    tractions.apply(bodies, f, fields);
-    springs.apply(bodies, f, fields);
+    apply(loads, bodies, f, fields);
     fold(f, fields);
     update_grid(f);
     unfold(f, fields);
-    tractions.book(bodies, f, fields, state.energies.external_work);
-    springs.stretch(bodies, f, fields);
+    book(loads, bodies, f, fields, state.energies.external_work);
     gather(f);
     if (filter_due()) state.energies.filter += filter.apply(f, fields, bodies);
     advance(f);
@@ -233,20 +229,10 @@ struct Engine<Dim>::Impl {
       kernel->update_grid(fields.table.pencils[p], f, view, options.profile, pencil_results[p]);
     });
     PencilResult total{};
-    for (const auto& r : pencil_results) {
-      total.friction += r.friction;
-      total.contact += r.contact;
-      total.platen_work += r.platen_work;
-      total.kinetic_change += r.kinetic_change;
-      total.force_change += r.force_change;
-      total.external_work += r.external_work;
-      total.contact_ticks += r.contact_ticks;
-      total.overflow |= r.overflow;
-      total.unconverged += r.unconverged;
-      for (int k = 0; k < 2; ++k) total.platen_impulse[k] += r.platen_impulse[k];
-    }
-    if (total.overflow) {
-      const auto where = std::find_if(pencil_results.begin(), pencil_results.end(), [](auto& r) { return r.overflow; });
+    for (const auto& r : pencil_results) add(total, r);
+    if (total.overflow > 0) {
+      const auto where =
+          std::find_if(pencil_results.begin(), pencil_results.end(), [](auto& r) { return r.overflow > 0; });
       const int column = fields.table.pencils[where - pencil_results.begin()].index[0];
       throw RunError(fmt::format("{}: more than {} bodies meet at one grid node near x = {:.4f} mm", moment(state),
                                  kMaxFields, f.origin[0] + column * f.cell[0]));
@@ -254,14 +240,13 @@ struct Engine<Dim>::Impl {
     state.energies.friction += total.friction;
     state.energies.contact += total.contact;
     state.energies.platen_work += total.platen_work;
-    state.energies.external_work += total.external_work;
     state.energies.filter += total.kinetic_change + total.force_change;
     state.unconverged_contacts += total.unconverged;
     for (int k = 0; k < 2; ++k) force[k] = total.platen_impulse[k] / f.dt;
     if (options.profile) {
       const double all = (ticks() - start) * (options.threads > 1 ? options.threads : 1);
-      timing.contact += total.contact_ticks;
-      timing.grid += all - total.contact_ticks;
+      ticks_by_phase.contact += total.contact_ticks;
+      ticks_by_phase.grid += all - total.contact_ticks;
     }
   }
 
@@ -274,17 +259,14 @@ struct Engine<Dim>::Impl {
     long long yielding = 0;
     furthest = {};
     for (int t = 0; t < count; ++t) {
-      const auto& r = tile_results[t];
-      state.energies.plastic += r.plastic;
-      state.energies.filter -= r.kinetic_change + r.stress_change;
-      yielding += r.yielding;
-      for (int a = 0; a < 3; ++a) furthest[a] = std::max(furthest[a], r.drift[a]);
-      if (r.bad) throw particle_failure(bodies[plan.tiles[t].body], r.bad - 1, state);
-      timing.weights += r.ticks[0];
-      timing.scatter += r.ticks[1];
-      timing.surface += r.ticks[2];
-      timing.material += r.ticks[3];
-      timing.gather += r.ticks[4];
+      // All of the result: another member stops the compiler here.
+      const auto& [plastic, kinetic_change, stress_change, moved, yields, bad, ticks] = tile_results[t];
+      state.energies.plastic += plastic;
+      state.energies.filter -= kinetic_change + stress_change;
+      yielding += yields;
+      for (int a = 0; a < 3; ++a) furthest[a] = std::max(furthest[a], moved[a]);
+      if (bad) throw particle_failure(bodies[plan.tiles[t].body], bad - 1, state);
+      add(ticks_by_phase, ticks);
     }
     for (int a = 0; a < 3; ++a) drift[a] += furthest[a];
     yield_visits += static_cast<double>(yielding);
@@ -330,7 +312,7 @@ void Engine<Dim>::set_platen_velocities(double bottom, double top) {
 }
 template <int Dim>
 void Engine<Dim>::set_gravity(const Vec<Dim>& g) {
-  impl_->gravity = g;
+  std::get<Gravity<Dim>>(impl_->loads).set(g);
 }
 template <int Dim>
 void Engine<Dim>::set_traction(int body, int face, const Vec<Dim>& traction) {
@@ -339,11 +321,11 @@ void Engine<Dim>::set_traction(int body, int face, const Vec<Dim>& traction) {
       face >= static_cast<int>(bodies[static_cast<std::size_t>(body)].faces.size())) {
     throw InputError(fmt::format("traction on face {} of body {}, which is not there", face, body));
   }
-  impl_->tractions.set(static_cast<std::size_t>(body), static_cast<std::size_t>(face), traction);
+  std::get<Tractions<Dim>>(impl_->loads).set(static_cast<std::size_t>(body), static_cast<std::size_t>(face), traction);
 }
 template <int Dim>
 void Engine<Dim>::set_springs(const std::vector<Spring<Dim>>& springs) {
-  impl_->springs.set(springs, impl_->bodies);
+  std::get<Springs<Dim>>(impl_->loads).set(springs, impl_->bodies);
 }
 template <int Dim>
 void Engine<Dim>::scale_velocities(double factor) {
@@ -375,7 +357,7 @@ Energies Engine<Dim>::energies() const {
 }
 template <int Dim>
 double Engine<Dim>::spring_energy() const {
-  return impl_->springs.energy();
+  return std::get<Springs<Dim>>(impl_->loads).energy();
 }
 template <int Dim>
 double Engine<Dim>::mean_motion_energy() const {
@@ -403,9 +385,9 @@ double Engine<Dim>::top_force() const {
 }
 template <int Dim>
 Timing Engine<Dim>::timing() const {
-  Timing t = impl_->timing;
+  Timing t{.phases = impl_->ticks_by_phase};
   const double scale = impl_->timing_ticks > 0 ? impl_->timing_seconds / impl_->timing_ticks : 0;
-  for (double* v : {&t.weights, &t.surface, &t.scatter, &t.grid, &t.contact, &t.gather, &t.material}) *v *= scale;
+  for_each_member(t.phases, [scale](double& phase) { phase *= scale; });
   if (impl_->particle_steps > 0) t.plastic_fraction = impl_->yield_visits / static_cast<double>(impl_->particle_steps);
   t.fields_per_node = fields_per_node(impl_->fields);
   return t;

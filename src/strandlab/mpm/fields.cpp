@@ -209,13 +209,7 @@ void impose_velocity(const Frame<Dim>& f, const std::function<Vec<Dim>(const Vec
 
 double grid_mass(const Fields& fields) {
   double sum = 0;
-  for (const auto& body : fields.windows) {
-    const WindowStore& w = body.field;
-    for (int p = 0; p < w.pencils(); ++p) {
-      for (int row = w.lo[p]; row <= w.hi[p]; ++row)
-        sum += fields.nodes[static_cast<std::size_t>(w.base[p] + row) * kRecord + 7];  // 0 behind rollers
-    }
-  }
+  each_body_node(fields, [&](const double* record) { sum += record[7]; });  // 0 behind rollers
   return sum;
 }
 

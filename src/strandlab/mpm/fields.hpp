@@ -40,6 +40,18 @@ std::vector<BodyView<Dim>> views_of(std::vector<Particles<Dim>>& bodies, Fields&
 template <int Dim>
 void impose_velocity(const Frame<Dim>& f, const std::function<Vec<Dim>(const Vec<Dim>&)>& velocity, Fields& fields);
 
+// Calls visit(record) for all nodes of the bodies, their mirror images in platens left out.
+template <class Visit>
+void each_body_node(const Fields& fields, Visit visit) {
+  for (const auto& body : fields.windows) {
+    const WindowStore& w = body.field;
+    for (int p = 0; p < w.pencils(); ++p) {
+      for (int row = w.lo[p]; row <= w.hi[p]; ++row)
+        visit(fields.nodes.data() + static_cast<std::size_t>(w.base[p] + row) * kRecord);
+    }
+  }
+}
+
 // t, on the bodies' nodes after a grid update (mirror images in platens left out).
 double grid_mass(const Fields& fields);
 

@@ -2,6 +2,7 @@
 // compiled once per instruction set and must not share inline code with the rest of the program.
 #pragma once
 
+#include "strandlab/mpm/phases.hpp"
 #include "strandlab/wood/return_map.hpp"
 
 namespace strandlab::mpm {
@@ -34,8 +35,7 @@ struct Frame {
   double cell[Dim];
   double inverse_cell[Dim];
   double dt;
-  double transit;  // s, of the fastest wave through a cell
-  double gravity[Dim];
+  double transit;    // s, of the fastest wave through a cell
   int wall[Dim][2];  // node index of a roller plane, or kNoWall
   struct {
     int present;
@@ -94,8 +94,8 @@ struct TileResult {
   double stress_change;   // mJ, 1/2 sum V0 dtau : d eps
   double drift[3];        // largest displacement of a particle or a face point per axis, cells
   long long yielding;
-  int bad;          // block of the first particle that failed + 1, 0: none
-  double ticks[5];  // weights, scatter, surface, material, gather (when profiled)
+  int bad;       // block of the first particle that failed + 1, 0: none
+  Phases ticks;  // when profiled
 };
 
 // A body's nodes on one pencil.
@@ -141,9 +141,8 @@ struct PencilResult {
   double platen_work;        // mJ
   double kinetic_change;     // mJ, 1/2 sum m |dv|^2 on the grid
   double force_change;       // mJ, 1/2 dt sum f.dv on the grid, f without the impulses of contact
-  double external_work;      // mJ
   double contact_ticks;
-  int overflow;     // more than kMaxFields fields at a node
+  int overflow;     // nodes where more than kMaxFields fields meet
   int unconverged;  // nodes whose impulses still changed by a hundredth after kContactPasses
 };
 

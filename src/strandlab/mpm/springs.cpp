@@ -95,7 +95,8 @@ void Springs<Dim>::apply(const std::vector<Particles<Dim>>& bodies, const Frame<
 }
 
 template <int Dim>
-void Springs<Dim>::stretch(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, const Fields& fields) {
+void Springs<Dim>::book(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, const Fields& fields,
+                        double& /*work*/) {
   for (auto& s : springs_) {
     const auto move = [&](const auto& end, double sign) {
       each_spring_node<Dim>(end, bodies, f, fields, [&](std::size_t node, double w) {

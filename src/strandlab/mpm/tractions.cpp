@@ -8,6 +8,12 @@
 namespace strandlab::mpm {
 namespace {
 
+// The grid's own functions at a point: no width.
+Gimp<double> hat(double d) {
+  return {{std::max(-d, 0.0), 1 - std::abs(d), std::max(d, 0.0)},
+          {d < 0 ? -1.0 : 0.0, d < 0 ? 1.0 : -1.0, d < 0 ? 0.0 : 1.0}};
+}
+
 // Grid functions averaged over the face element of a point: as wide as the particle along the face, flat across it.
 // Then the nodal forces of a traction balance those of an equal stress node by node (divergence theorem), also at
 // nodes that the body hardly touches.
@@ -24,11 +30,7 @@ PointStencil<Dim> face_stencil(const Particles<Dim>& body, const double* d, cons
     const double width = body.half_width(d, a, 0.5 * body.spacing - offset.cwiseAbs()) * f.inverse_cell[a];
     double from_node = xi - s.node[a];
     if (std::abs(from_node) < 1e-9) from_node = 0;  // a face on a grid line acts on that line alone
-    if (width > 1e-3) {
-      s.axis[a] = gimp(from_node, std::min(width, 0.5));
-    } else {
-      s.axis[a].w = {std::max(-from_node, 0.0), 1 - std::abs(from_node), std::max(from_node, 0.0)};
-    }
+    s.axis[a] = width > kLeastHalfWidth ? gimp<double>(from_node, std::min(width, kMostHalfWidth)) : hat(from_node);
   }
   return s;
 }

@@ -15,8 +15,8 @@ PointStencil<Dim> stencil_at(const Particles<Dim>& body, const double* d, const 
   for (int a = 0; a < Dim; ++a) {
     const double xi = (x[a] - f.origin[a]) * f.inverse_cell[a];
     s.node[a] = static_cast<int>(std::lround(xi));
-    const double r = std::clamp(body.half_width(d, a) * f.inverse_cell[a], 1e-3, 0.5);
-    s.axis[a] = gimp(xi - s.node[a], r);
+    const double r = std::clamp(body.half_width(d, a) * f.inverse_cell[a], kLeastHalfWidth, kMostHalfWidth);
+    s.axis[a] = gimp<double>(xi - s.node[a], r);
   }
   return s;
 }

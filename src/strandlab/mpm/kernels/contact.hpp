@@ -34,6 +34,36 @@ struct Meeting {  // a velocity field at a node where several meet
   int partners;
 };
 
+// What body a gives to body b at a node, N s (per mm of depth in 2D). T: one pair or a pack of them.
+template <int Dim, class T>
+struct Impulse {
+  T normal{};      // along n, compression positive
+  T shear[Dim]{};  // in the plane of contact
+};
+
+// Corrects an impulse so that the relative velocity `rel` of b against a, `vn` along n, becomes `target` along n and
+// none across it, pushing only and within Coulomb friction; `reduced` is the mass that the pair moves against each
+// other. Returns in `change` what b receives on top.
+template <int Dim, class T>
+STRANDLAB_INLINE void correct(const T (&rel)[Dim], const T& vn, const T (&n)[Dim], const T& target, const T& reduced,
+                              double friction, Impulse<Dim, T>& impulse, T (&change)[Dim]) {
+  const T zero{}, one = zero + 1.0;
+  const T normal = larger(impulse.normal + reduced * (target - vn), zero);
+  T shear[Dim], size2{};
+  for (int d = 0; d < Dim; ++d) {
+    shear[d] = impulse.shear[d] - reduced * (rel[d] - vn * n[d]);
+    size2 += shear[d] * shear[d];
+  }
+  const T limit = friction * normal;
+  const T scale = select(size2 > limit * limit, limit / square_root(size2), one);
+  for (int d = 0; d < Dim; ++d) {
+    shear[d] *= scale;
+    change[d] = (normal - impulse.normal) * n[d] + shear[d] - impulse.shear[d];
+    impulse.shear[d] = shear[d];
+  }
+  impulse.normal = normal;
+}
+
 template <int Dim>
 struct Pair {
   int a, b;
@@ -41,9 +71,8 @@ struct Pair {
   double gap;     // between the faces, negative where they overlap
   double target;  // separation velocity that just keeps the faces from crossing
   double friction;
-  double normal;  // impulse so far, compression positive
-  double shear[Dim];
-  double reduced;  // mass
+  Impulse<Dim, double> impulse;  // so far
+  double reduced;                // mass
 };
 
 template <int Dim>
@@ -112,26 +141,13 @@ STRANDLAB_INLINE double contact_pass(Meeting<Dim>* m, int fields, Pair<Dim>* pai
   for (int p = 0; p < count; ++p) {
     Pair<Dim>& pair = pairs[p];
     const Meeting<Dim>&a = m[pair.a], &b = m[pair.b];
-    double rel[Dim];
+    double rel[Dim], impulse[Dim];
     for (int d = 0; d < Dim; ++d) rel[d] = b.v[d] - a.v[d];
-    const double vn = dot<Dim>(rel, pair.n);
-    double normal = pair.normal + pair.reduced * (pair.target - vn);
-    normal = normal > 0 ? normal : 0;
-    double shear[Dim], size2 = 0;
+    correct<Dim>(rel, dot<Dim>(rel, pair.n), pair.n, pair.target, pair.reduced, pair.friction, pair.impulse, impulse);
     for (int d = 0; d < Dim; ++d) {
-      shear[d] = pair.shear[d] - pair.reduced * (rel[d] - vn * pair.n[d]);
-      size2 += shear[d] * shear[d];
+      change[pair.a][d] -= impulse[d] * a.inverse_mass;
+      change[pair.b][d] += impulse[d] * b.inverse_mass;
     }
-    const double limit = pair.friction * normal;
-    const double scale = size2 > limit * limit ? limit / __builtin_sqrt(size2) : 1;
-    for (int d = 0; d < Dim; ++d) {
-      shear[d] *= scale;
-      const double dJ = (normal - pair.normal) * pair.n[d] + shear[d] - pair.shear[d];
-      change[pair.a][d] -= dJ * a.inverse_mass;
-      change[pair.b][d] += dJ * b.inverse_mass;
-      pair.shear[d] = shear[d];
-    }
-    pair.normal = normal;
   }
   double largest = 0;
   for (int i = 0; i < fields; ++i) {
@@ -170,8 +186,7 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
     finish_pair<Dim>(frame, pairs[p].b >= real, pairs[p]);
     ++m[pairs[p].a].partners;
     ++m[pairs[p].b].partners;
-    pairs[p].normal = 0;
-    for (int d = 0; d < Dim; ++d) pairs[p].shear[d] = 0;
+    pairs[p].impulse = {};
   }
   for (int p = 0; p < count; ++p) {
     const Meeting<Dim>&a = m[pairs[p].a], &b = m[pairs[p].b];
@@ -196,11 +211,11 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
       const double other = !on_platen ? 0.5 * (b.v[d] + b.start[d]) : d == Dim - 1 ? frame.platen[k].velocity : 0.0;
       mean[d] = other - 0.5 * (a.v[d] + a.start[d]);
     }
-    result.contact -= pair.normal * dot<Dim>(mean, pair.n);
-    result.friction -= dot<Dim>(pair.shear, mean);
+    result.contact -= pair.impulse.normal * dot<Dim>(mean, pair.n);
+    result.friction -= dot<Dim>(pair.impulse.shear, mean);
     if (on_platen) {
-      result.platen_impulse[k] += pair.normal;
-      result.platen_work -= pair.normal * pair.n[Dim - 1] * frame.platen[k].velocity;
+      result.platen_impulse[k] += pair.impulse.normal;
+      result.platen_work -= pair.impulse.normal * pair.n[Dim - 1] * frame.platen[k].velocity;
     }
   }
   for (int i = 0; i < real; ++i) {
@@ -209,7 +224,6 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
       const double change = m[i].v[d] - m[i].trial[d], free = m[i].record[Dim + d];
       result.kinetic_change += half_mass * change * (2 * free + change);  // momentum_balance booked dv = free
       result.force_change += half_mass * change * free;
-      result.external_work += 2 * half_mass * frame.dt * frame.gravity[d] * change;
       m[i].record[d] = m[i].v[d];
       m[i].record[Dim + d] = free + change;
     }

@@ -135,7 +135,7 @@ void gather(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame
     load_packs(block + C::F * kBlock, F);
     Stencil<Dim> s;
     stencil_at<Dim>(x, F, body.half_size, frame, s);
-    lap(result.ticks[0]);
+    lap(result.ticks.weights);
     Motion<Dim> motion;
     gather_motion(s, body.window, nodes, lanes[b], motion);
     Mask real;
@@ -149,7 +149,7 @@ void gather(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame
       moved[a] = absolute(dx);
     }
     kinetic += select(real, change, Pack{});
-    lap(result.ticks[4]);
+    lap(result.ticks.gather);
     Pack A[Dim * Dim], middle[Dim * Dim];
     for (int k = 0; k < Dim * Dim; ++k) A[k] = frame.dt * motion.L[k];
     advance_F<Dim>(A, F, middle);
@@ -167,7 +167,7 @@ void gather(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame
     plastic += select(real, dissipation, Pack{});
     stress_change += select(real, change_here, Pack{});
     if (any(~ok) && result.bad == 0) result.bad = b + 1;
-    lap(result.ticks[3]);
+    lap(result.ticks.material);
   }
   result.plastic += body.volume * sum(plastic);
   result.stress_change += 0.5 * body.volume * sum(stress_change);

@@ -28,39 +28,30 @@ STRANDLAB_INLINE Pack second_vector(const Pack& r) {
     return __builtin_shufflevector(r, zero, 3, 4, 5, 8, 8, 8, 8, 8);
 }
 
-// What a record is multiplied with and what is added to it: {v, dv} = scale {p, f}/m + gravity.
-struct NodeUpdate {
-  Pack scale, gravity;
-};
-// On a roller plane the normal component is zero. A mirror image feels gravity reversed.
+// What a record is multiplied with: {v, dv} = scale {p, f}/m. On a roller plane the normal component is zero.
 template <int Dim>
-STRANDLAB_INLINE NodeUpdate node_update(const Pencil& pencil, const Frame<Dim>& frame, double gravity_sign) {
-  NodeUpdate u{};
+STRANDLAB_INLINE Pack node_scale(const Pencil& pencil, const Frame<Dim>& frame) {
+  Pack scale{};
   for (int d = 0; d < Dim; ++d) {
     const bool on_wall = d < Dim - 1 && (pencil.index[d] == frame.wall[d][0] || pencil.index[d] == frame.wall[d][1]);
     if (on_wall) continue;
-    u.scale[d] = 1;
-    u.scale[Dim + d] = frame.dt;
-    u.gravity[Dim + d] = frame.dt * frame.gravity[d] * (d == Dim - 1 ? gravity_sign : 1);
+    scale[d] = 1;
+    scale[Dim + d] = frame.dt;
   }
-  return u;
+  return scale;
 }
 
-// v = p/m + dv, dv = dt f/m + dt g: the record becomes {v, dv, ..., m}. Returns sum m {v^2, dv^2} of the nodes and adds
-// sum m {v, dv} to `momentum`.
+// v = p/m + dv, dv = dt f/m: the record becomes {v, dv, ..., m}. Returns sum m {v^2, dv^2} of the nodes.
 template <int Dim>
-STRANDLAB_INLINE Pack advance_nodes(const PencilField::Rows& rows, const NodeUpdate& update, double* nodes,
-                                    Pack& momentum) {
+STRANDLAB_INLINE Pack advance_nodes(const PencilField::Rows& rows, const Pack& scale, double* nodes) {
   Pack squares{};
   double* r = nodes + kRecord * static_cast<long>(rows.base + rows.row_lo);
   for (int row = rows.row_lo; row < rows.row_hi; ++row, r += kRecord) {
     const Pack record = load(r);
     const double mass = record[0];
     const double inverse = mass > 0 ? 1 / mass : 0;
-    const Pack before =
-        momentum_and_force<Dim>(record) * inverse * update.scale + (mass > 0 ? 1.0 : 0.0) * update.gravity;
+    const Pack before = momentum_and_force<Dim>(record) * inverse * scale;
     Pack after = before + second_vector<Dim>(before);
-    momentum += mass * after;
     squares += mass * after * after;
     after[7] = mass;
     store(r, after);
@@ -69,19 +60,15 @@ STRANDLAB_INLINE Pack advance_nodes(const PencilField::Rows& rows, const NodeUpd
 }
 
 // Momentum balance at the nodes of a field and of its mirror images on a pencil, and its energies before contact: 1/2
-// sum m |dv|^2, of which lumping the mass costs a part when the particles take up dv, and the work of gravity on the
-// step's mean velocity.
+// sum m |dv|^2, of which lumping the mass costs a part when the particles take up dv.
 template <int Dim>
-STRANDLAB_INLINE void momentum_balance(const PencilField& field, const NodeUpdate& update,
-                                       const NodeUpdate& image_update, const Frame<Dim>& frame,
-                                       const GridView<Dim>& grid, PencilResult& result) {
-  Pack momentum{}, ignored{};
-  const Pack squares = advance_nodes<Dim>({field.base, field.row_lo, field.row_hi}, update, grid.nodes, momentum);
-  for (int k = 0; k < 2; ++k) advance_nodes<Dim>(field.mirror[k], image_update, grid.nodes, ignored);
+STRANDLAB_INLINE void momentum_balance(const PencilField& field, const Pack& scale, const GridView<Dim>& grid,
+                                       PencilResult& result) {
+  const Pack squares = advance_nodes<Dim>({field.base, field.row_lo, field.row_hi}, scale, grid.nodes);
+  for (int k = 0; k < 2; ++k) advance_nodes<Dim>(field.mirror[k], scale, grid.nodes);
   for (int d = 0; d < Dim; ++d) {
     result.kinetic_change += 0.5 * squares[Dim + d];
     result.force_change += 0.5 * squares[Dim + d];
-    result.external_work += momentum[d] * frame.dt * frame.gravity[d];
   }
 }
 
@@ -108,7 +95,7 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
     double* record = grid.nodes + kRecord * static_cast<long>(field.base + row);
     if (!(record[7] > 0)) continue;
     if (fields == kMaxFields) {
-      result.overflow = 1;
+      ++result.overflow;
       break;
     }
     m[fields].record = record;
@@ -150,9 +137,9 @@ template <int Dim>
 void update_grid(const Pencil& pencil, const Frame<Dim>& frame, const GridView<Dim>& grid, bool profile,
                  PencilResult& result) {
   if (pencil.ghost) return;
-  const NodeUpdate update = node_update<Dim>(pencil, frame, 1), image_update = node_update<Dim>(pencil, frame, -1);
+  const Pack scale = node_scale<Dim>(pencil, frame);
   for (int f = pencil.field_begin; f < pencil.field_end; ++f)
-    momentum_balance<Dim>(grid.fields[f], update, image_update, frame, grid, result);
+    momentum_balance<Dim>(grid.fields[f], scale, grid, result);
   Lap lap(profile);
   double x[Dim];
   for (int a = 0; a < Dim - 1; ++a) x[a] = frame.origin[a] + pencil.index[a] * frame.cell[a];

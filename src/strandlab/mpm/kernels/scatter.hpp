@@ -200,20 +200,20 @@ void scatter(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& fram
     for (int k = 0; k < (Dim == 2 ? 4 : 6); ++k) tau[k] = load(block + (C::stress + k) * kBlock);
     Stencil<Dim> s;
     stencil_at<Dim>(x, F, body.half_size, frame, s);
-    lap(result.ticks[0]);
+    lap(result.ticks.weights);
     Rows<Dim> rows;
     prepare(v, F, tau, body.mass, body.volume, rows);
     for (int l = 0; l < lanes[b]; ++l) scatter_lane(rows, s, body.window, l, nodes);
     for (int k = 0; k < 2; ++k) {
       if (body.mirror[k].height > 0) scatter_mirror<Dim>(x, v, F, tau, body, frame, k, lanes[b], nodes);
     }
-    lap(result.ticks[1]);
+    lap(result.ticks.scatter);
   }
   for (int f = 0; f < body.faces; ++f) {
     for (int p = tile.face_begin[f]; p < tile.face_end[f]; ++p)
       scatter_surface<Dim>(body.face[f], p, body, frame, surface);
   }
-  lap(result.ticks[2]);
+  lap(result.ticks.surface);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Weights, gradients and records of the nodes around eight points.
 #pragma once
 
+#include "strandlab/mpm/gimp.hpp"
 #include "strandlab/mpm/kernels.hpp"
 #include "strandlab/mpm/kernels/pack.hpp"
 
@@ -15,24 +16,12 @@ struct Stencil {
   alignas(64) long long node[Dim][kBlock];
 };
 
-// Bardenhagen & Kober (2004): the mean of a hat function over the particle's domain, half-width r cells, at distance d
-// from the nearest node. Over the right neighbour's hat max(xi, 0) the mean on [d - r, d + r] is (u1^2 - u0^2)/(4r).
-STRANDLAB_INLINE void gimp_axis(const Pack& d, const Pack& r, double inverse_cell, double (&w)[3][kBlock],
-                                double (&g)[3][kBlock]) {
-  const Pack zero{};
-  const Pack half_over_r = 0.5 / r;
-  const Pack u1 = larger(d + r, zero), u0 = larger(d - r, zero);
-  const Pack l1 = larger(r - d, zero), l0 = larger(-d - r, zero);
-  const Pack gr = (u1 - u0) * half_over_r;
-  const Pack gl = (l1 - l0) * half_over_r;
-  const Pack wr = 0.5 * gr * (u1 + u0);
-  const Pack wl = 0.5 * gl * (l1 + l0);
-  store(w[0], wl);
-  store(w[1], 1.0 - wl - wr);
-  store(w[2], wr);
-  store(g[0], -gl * inverse_cell);
-  store(g[1], (gl - gr) * inverse_cell);
-  store(g[2], gr * inverse_cell);
+STRANDLAB_INLINE void store_axis(const Gimp<Pack>& axis, double inverse_cell, double (&w)[3][kBlock],
+                                 double (&g)[3][kBlock]) {
+  for (int k = 0; k < 3; ++k) {
+    store(w[k], axis.weight[k]);
+    store(g[k], axis.gradient[k] * inverse_cell);
+  }
 }
 
 // The domain's half-width along an axis is that of the edge that reaches furthest along it: the diagonal of F alone
@@ -46,10 +35,10 @@ STRANDLAB_INLINE void stencil_at(const Pack (&x)[Dim], const Pack (&F)[Dim * Dim
     const Pack rounded = shifted(xi);
     const Mask node = bits(rounded);
     __builtin_memcpy(s.node[a], &node, sizeof node);
-    Pack r = splat(1e-3);
+    Pack r = splat(kLeastHalfWidth);
     for (int b = 0; b < Dim; ++b) r = larger(absolute(F[a * Dim + b]) * (half_size[b] * frame.inverse_cell[a]), r);
-    r = smaller(r, splat(0.5));
-    gimp_axis(xi - (rounded - kRounder), r, frame.inverse_cell[a], s.w[a], s.g[a]);
+    r = smaller(r, splat(kMostHalfWidth));
+    store_axis(gimp<Pack>(xi - (rounded - kRounder), r), frame.inverse_cell[a], s.w[a], s.g[a]);
   }
 }
 
