@@ -28,7 +28,7 @@ double cost(const wood::Material& wood, double angle_deg, double strain, double&
   grid.lo = Vec<2>::Constant(-5);
   grid.hi = Vec<2>::Constant(60);
   mpm::Options options;
-  options.profile = true;
+  options.timed = true;
   mpm::Engine<2> engine({body}, grid, options);
   const auto press = [&](double rate) { engine.impose(1, [rate](const Vec<2>& x) { return Vec<2>(0, rate * x[1]); }); };
   engine.step();  // at rest: sets the clock

@@ -87,10 +87,10 @@ double measure(mpm::Engine<Dim>& engine, int repeats) {
   return median(ns);
 }
 
-// A profiled run of its own: the clock reads cost a few ns per particle-step themselves.
+// A timed run of its own: the clock reads cost a few ns per particle-step themselves.
 template <int Dim>
 mpm::Phases phases(const Panel<Dim>& panel, press::Setup<Dim> setup, mpm::Timing& timing) {
-  setup.engine.profile = true;
+  setup.engine.timed = true;
   auto engine = engine_for(panel, setup, kSpeed);
   for (int i = 0; i < kSteps; ++i) engine.step();
   timing = engine.timing();

@@ -56,8 +56,7 @@ std::string text_of(const Result& r, const Result& first) {
   text +=
       fmt::format("  memory                 {:6.0f} bytes per particle in the engine, peak of the process {:.0f} MB\n",
                   r.bytes_per_particle, r.peak_memory_mb);
-  text +=
-      fmt::format("  split by phase, profiled (the clock adds a few ns), ns per particle-step, threads added up:\n");
+  text += fmt::format("  split by phase, timed (the clock adds a few ns), ns per particle-step, threads added up:\n");
   text += phases_text("elastic", r.elastic_phases);
   text += phases_text("mid-press", r.press_phases);
   return text;

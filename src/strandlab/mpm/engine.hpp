@@ -35,10 +35,10 @@ struct Options {
   double friction = 0.3;         // between bodies, Coulomb
   double platen_friction = 0.3;  // body on platen
   int filter_interval = 0;       // steps between XPIC(2) filterings of the particle velocities; 0: pure FLIP
-  bool profile = false;          // measure Timing per phase
+  bool timed = false;            // measure Timing per phase
 };
 
-struct Timing {                 // 0 unless Options::profile
+struct Timing {                 // 0 unless Options::timed
   Phases phases{};              // s, summed over threads
   double fields_per_node = 0;   // mean over nodes with mass
   double plastic_fraction = 0;  // particle-steps that yielded

@@ -11,8 +11,8 @@ template <int Dim>
 class Gravity {
  public:
   void set(const Vec<Dim>& g) { g_ = g; }  // mm/s^2
-  void apply(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, Fields& fields) const;
-  void book(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, const Fields& fields, double& work);
+  void apply(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, Fields& fields) const;
+  void book(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, const Fields& fields, double& work);
 
  private:
   Vec<Dim> g_ = Vec<Dim>::Zero();

@@ -16,16 +16,16 @@ using Loads = std::tuple<Gravity<Dim>, Tractions<Dim>, Springs<Dim>>;
 
 // Adds the forces of all loads to the records of nodes: after scatter, before rollers fold.
 template <int Dim>
-void apply(const Loads<Dim>& loads, const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, Fields& fields) {
-  std::apply([&](const auto&... load) { (load.apply(bodies, f, fields), ...); }, loads);
+void apply(const Loads<Dim>& loads, const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, Fields& fields) {
+  std::apply([&](const auto&... load) { (load.apply(bodies, step, fields), ...); }, loads);
 }
 
 // After the grid update, which has the displacements that the forces are conjugate to: adds the work of the step to
 // `work`, mJ, and lets loads that depend on displacements follow them. Springs keep theirs: Springs::energy().
 template <int Dim>
-void book(Loads<Dim>& loads, const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, const Fields& fields,
+void book(Loads<Dim>& loads, const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, const Fields& fields,
           double& work) {
-  std::apply([&](auto&... load) { (load.book(bodies, f, fields, work), ...); }, loads);
+  std::apply([&](auto&... load) { (load.book(bodies, step, fields, work), ...); }, loads);
 }
 
 }  // namespace strandlab::mpm

@@ -13,9 +13,9 @@ class Springs {
  public:
   // As Engine::set_springs.
   void set(const std::vector<Spring<Dim>>& springs, const std::vector<Particles<Dim>>& bodies);
-  void apply(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, Fields& fields) const;
+  void apply(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, Fields& fields) const;
   // They stretch, and keep their work as energy().
-  void book(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, const Fields& fields, double& work);
+  void book(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, const Fields& fields, double& work);
   double energy() const;  // mJ, stored now
 
  private:

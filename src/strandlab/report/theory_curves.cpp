@@ -41,8 +41,8 @@ std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows, c
       case vtest::Kind::kTension: {
         add(kRuleOfMixtures, theory::tension_modulus_MPa(rows, m.compaction, off_axis));
         if (!bridged) break;
-        const double compliance = std::max(m.compliance_t_mm_per_MPa, 0.0);  // as the virtual tests take it
-        add(kShearLag, theory::shear_lag_panel_MPa(rows, {}, compliance, m.compaction, off_axis));
+        const double compliance_t = std::max(m.compliance_t_mm_per_MPa, 0.0);  // as the virtual tests take it
+        add(kShearLag, theory::shear_lag_panel_MPa(rows, {}, compliance_t, m.compaction, off_axis));
         break;
       }
       case vtest::Kind::kBendingEndRotation:

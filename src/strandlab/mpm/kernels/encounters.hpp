@@ -27,7 +27,7 @@ STRANDLAB_INLINE void add(double* a, double* b, const Pair<Dim>& pair, Encounter
 
 // contact_pass and resolve for one pair at each node, where one pass is exact.
 template <int Dim>
-STRANDLAB_INLINE void resolve(Encounters<Dim>& e, const Frame<Dim>& frame, double friction, PencilResult& result) {
+STRANDLAB_INLINE void resolve(Encounters<Dim>& e, const Step<Dim>& step, double friction, PencilResult& result) {
   if (e.count == 0) return;
   const Pack zero{};
   Pack a[8], b[8], n[Dim], rel[Dim];
@@ -51,15 +51,16 @@ STRANDLAB_INLINE void resolve(Encounters<Dim>& e, const Frame<Dim>& frame, doubl
     rel[d] = b[d] - a[d];
     vn += rel[d] * n[d];
   }
-  const Pack target = select(real, -larger(load(e.gap), zero) / frame.dt, zero);
+  const Pack target = select(real, -larger(load(e.gap), zero) / step.dt, zero);
   const Pack reduced = a[7] * b[7] / (a[7] + b[7]);
-  Impulse<Dim, Pack> impulse;
-  Pack received[Dim];
-  correct<Dim>(rel, vn, n, target, reduced, friction, impulse, received);  // none where the lane is not real: n is 0
-  if (!any(impulse.normal > 0.0)) {
+  const Pack normal = pushing(zero, vn, target, reduced);  // 0 where the lane is not real: there n is 0
+  if (!any(normal > 0.0)) {
     e.count = 0;
     return;
   }
+  Impulse<Dim, Pack> impulse{};
+  Pack received[Dim];
+  correct<Dim>(normal, rel, vn, n, reduced, friction, impulse, received);
   Pack contact{}, rubbed{}, kinetic{}, forces{};
   for (int d = 0; d < Dim; ++d) {
     const Pack change_a = -received[d] / a[7], change_b = received[d] / b[7];

@@ -4,8 +4,8 @@
 #include "strandlab/mpm/kernels.hpp"
 #include "strandlab/mpm/kernels/contact.hpp"
 #include "strandlab/mpm/kernels/encounters.hpp"
-#include "strandlab/mpm/kernels/lap.hpp"
 #include "strandlab/mpm/kernels/pack.hpp"
+#include "strandlab/mpm/kernels/stopwatch.hpp"
 
 namespace strandlab::mpm::STRANDLAB_ISA {
 namespace {
@@ -30,13 +30,13 @@ STRANDLAB_INLINE Pack second_vector(const Pack& r) {
 
 // What a record is multiplied with: {v, dv} = scale {p, f}/m. On a roller plane the normal component is zero.
 template <int Dim>
-STRANDLAB_INLINE Pack node_scale(const Pencil& pencil, const Frame<Dim>& frame) {
+STRANDLAB_INLINE Pack node_scale(const Pencil& pencil, const Step<Dim>& step) {
   Pack scale{};
   for (int d = 0; d < Dim; ++d) {
-    const bool on_wall = d < Dim - 1 && (pencil.index[d] == frame.wall[d][0] || pencil.index[d] == frame.wall[d][1]);
+    const bool on_wall = d < Dim - 1 && (pencil.index[d] == step.wall[d][0] || pencil.index[d] == step.wall[d][1]);
     if (on_wall) continue;
     scale[d] = 1;
-    scale[Dim + d] = frame.dt;
+    scale[Dim + d] = step.dt;
   }
   return scale;
 }
@@ -75,15 +75,15 @@ STRANDLAB_INLINE void momentum_balance(const PencilField& field, const Pack& sca
 // Contact at the nodes of one row of a pencil, momentum conserving, independent of the order of the bodies. Two bodies
 // that meet far from the platens are put into `encounters`, for later.
 template <int Dim>
-STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, const Frame<Dim>& frame,
+STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, const Step<Dim>& step,
                                   const GridView<Dim>& grid, Encounters<Dim>& encounters, PencilResult& result) {
-  const double cell = frame.cell[Dim - 1], reach = 0.25 * cell;
+  const double cell = step.cell[Dim - 1], reach = 0.25 * cell;
   const int begin = grid.row_start[pencil.slots + row - pencil.row_lo];
   const int end = grid.row_start[pencil.slots + row - pencil.row_lo + 1];
-  x[Dim - 1] = frame.origin[Dim - 1] + row * cell;
+  x[Dim - 1] = step.origin[Dim - 1] + row * cell;
   bool platen[2];
   for (int k = 0; k < 2; ++k) {
-    platen[k] = frame.platen[k].present && (frame.platen[k].position - x[Dim - 1]) * (k == 0 ? -1 : 1) < 1.5 * cell;
+    platen[k] = step.platen[k].present && (step.platen[k].position - x[Dim - 1]) * (k == 0 ? -1 : 1) < 1.5 * cell;
   }
   const int least = platen[0] || platen[1] ? 1 : 2;
   if (end - begin < least) return;
@@ -122,7 +122,7 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
     }
     for (int k = 0; k < 2; ++k) {
       Pair<Dim>& pair = pairs[count];
-      if (!platen[k] || !platen_pair<Dim>(m[i], frame, k, x[Dim - 1], reach, pair)) continue;
+      if (!platen[k] || !platen_pair<Dim>(m[i], step, k, x[Dim - 1], reach, pair)) continue;
       if (!has_mirror<Dim>(field_of(i), k, row, grid, m[fields])) continue;
       pair.a = i;
       pair.b = fields++;
@@ -130,26 +130,26 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
       ++count;
     }
   }
-  if (count > 0) resolve<Dim>(m, fields, real, pairs, count, frame, result);
+  if (count > 0) resolve<Dim>(m, fields, real, pairs, count, step, result);
 }
 
 template <int Dim>
-void update_grid(const Pencil& pencil, const Frame<Dim>& frame, const GridView<Dim>& grid, bool profile,
+void update_grid(const Pencil& pencil, const Step<Dim>& step, const GridView<Dim>& grid, bool timed,
                  PencilResult& result) {
   if (pencil.ghost) return;
-  const Pack scale = node_scale<Dim>(pencil, frame);
+  const Pack scale = node_scale<Dim>(pencil, step);
   for (int f = pencil.field_begin; f < pencil.field_end; ++f)
     momentum_balance<Dim>(grid.fields[f], scale, grid, result);
-  Lap lap(profile);
+  Stopwatch watch(timed);
   double x[Dim];
-  for (int a = 0; a < Dim - 1; ++a) x[a] = frame.origin[a] + pencil.index[a] * frame.cell[a];
+  for (int a = 0; a < Dim - 1; ++a) x[a] = step.origin[a] + pencil.index[a] * step.cell[a];
   Encounters<Dim> encounters;
   for (int row = pencil.row_lo; row < pencil.row_hi; ++row) {
-    contact_row<Dim>(pencil, row, x, frame, grid, encounters, result);
-    if (encounters.count == kBlock) resolve<Dim>(encounters, frame, grid.friction, result);
+    contact_row<Dim>(pencil, row, x, step, grid, encounters, result);
+    if (encounters.count == kBlock) resolve<Dim>(encounters, step, grid.friction, result);
   }
-  resolve<Dim>(encounters, frame, grid.friction, result);
-  lap(result.contact_ticks);
+  resolve<Dim>(encounters, step, grid.friction, result);
+  watch(result.contact_ticks);
 }
 
 }  // namespace

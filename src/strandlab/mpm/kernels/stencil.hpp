@@ -29,31 +29,31 @@ STRANDLAB_INLINE void store_axis(const Gimp<Pack>& axis, double inverse_cell, do
 // force and hardly any mass.
 template <int Dim>
 STRANDLAB_INLINE void stencil_at(const Pack (&x)[Dim], const Pack (&F)[Dim * Dim], const double* half_size,
-                                 const Frame<Dim>& frame, Stencil<Dim>& s) {
+                                 const Step<Dim>& step, Stencil<Dim>& s) {
   for (int a = 0; a < Dim; ++a) {
-    const Pack xi = (x[a] - frame.origin[a]) * frame.inverse_cell[a];
+    const Pack xi = (x[a] - step.origin[a]) * step.inverse_cell[a];
     const Pack rounded = shifted(xi);
     const Mask node = bits(rounded);
     __builtin_memcpy(s.node[a], &node, sizeof node);
     Pack r = splat(kLeastHalfWidth);
-    for (int b = 0; b < Dim; ++b) r = larger(absolute(F[a * Dim + b]) * (half_size[b] * frame.inverse_cell[a]), r);
+    for (int b = 0; b < Dim; ++b) r = larger(absolute(F[a * Dim + b]) * (half_size[b] * step.inverse_cell[a]), r);
     r = smaller(r, splat(kMostHalfWidth));
-    store_axis(gimp<Pack>(xi - (rounded - kRounder), r), frame.inverse_cell[a], s.w[a], s.g[a]);
+    store_axis(gimp<Pack>(xi - (rounded - kRounder), r), step.inverse_cell[a], s.w[a], s.g[a]);
   }
 }
 
 // Records of the first row of a lane's stencil on each of its 3 (2D) or 9 (3D) pencils.
 template <int Dim>
-STRANDLAB_INLINE void pencil_records(const Window& window, const Stencil<Dim>& s, int lane,
+STRANDLAB_INLINE void pencil_records(const Patch& patch, const Stencil<Dim>& s, int lane,
                                      int (&record)[Dim == 2 ? 3 : 9]) {
   const int row = static_cast<int>(s.node[Dim - 1][lane]) - 1;
-  const int c0 = static_cast<int>(s.node[0][lane]) - 1 - window.first[0];
+  const int c0 = static_cast<int>(s.node[0][lane]) - 1 - patch.first[0];
   if constexpr (Dim == 2) {
-    for (int i = 0; i < 3; ++i) record[i] = window.base[c0 + i] + row;
+    for (int i = 0; i < 3; ++i) record[i] = patch.base[c0 + i] + row;
   } else {
-    const int c1 = static_cast<int>(s.node[1][lane]) - 1 - window.first[1];
+    const int c1 = static_cast<int>(s.node[1][lane]) - 1 - patch.first[1];
     for (int k = 0; k < 3; ++k) {
-      for (int i = 0; i < 3; ++i) record[3 * k + i] = window.base[(c1 + k) * window.count[0] + c0 + i] + row;
+      for (int i = 0; i < 3; ++i) record[3 * k + i] = patch.base[(c1 + k) * patch.count[0] + c0 + i] + row;
     }
   }
 }
