@@ -28,16 +28,17 @@ double cost(const wood::Material& wood, double angle_deg, double strain, double&
   grid.lo = Vec<2>::Constant(-5);
   grid.hi = Vec<2>::Constant(60);
   mpm::Options options;
-  options.profile = true;
+  options.timed = true;
   mpm::Engine<2> engine({body}, grid, options);
   const auto press = [&](double rate) { engine.impose(1, [rate](const Vec<2>& x) { return Vec<2>(0, rate * x[1]); }); };
   engine.step();  // at rest: sets the clock
   for (int i = 0; i < 40; ++i) press(-0.005);
   double best = 1e300;
   for (int r = 0; r < kRepeats; ++r) {
-    const double before = engine.timing().material;
+    const double before = engine.timing().phases.material;
     for (int i = 0; i < kSteps; ++i) press(-strain);
-    const double ns = 1e9 * (engine.timing().material - before) / (static_cast<double>(engine.particles()) * kSteps);
+    const double ns =
+        1e9 * (engine.timing().phases.material - before) / (static_cast<double>(engine.particles()) * kSteps);
     best = std::min(best, ns);
   }
   yielding = engine.timing().plastic_fraction;

@@ -20,7 +20,7 @@ namespace {
 struct TheoryArguments {
   std::string file, csv, off_axis;
   std::vector<std::string> overrides;
-  std::vector<double> compactions, compliances;
+  std::vector<double> compactions, compliances_t;
   theory::Question question;
 };
 
@@ -33,8 +33,8 @@ theory::Question question_of(const TheoryArguments& a) {
   if (a.compactions.empty()) cases::settle_states(c, mat);
   q.rows = run::theory_rows(c, mat);
   q.compactions = a.compactions.empty() ? c.schedule.compactions : a.compactions;
-  q.compliances_t = a.compliances.empty() ? c.test.compliance_t_mm_per_MPa : a.compliances;
-  for (double& compliance : q.compliances_t) compliance = glue::taken(compliance);
+  q.compliances_t = a.compliances_t.empty() ? c.test.compliance_t_mm_per_MPa : a.compliances_t;
+  for (double& compliance_t : q.compliances_t) compliance_t = glue::taken(compliance_t);
   // Of a case the moduli that its virtual tests are drawn beside; without one those of free bars, as published.
   const auto by_default = a.file.empty() ? wood::OffAxis::kUncoupled : c.off_axis;
   q.off_axis = a.off_axis.empty() ? by_default : wood::off_axis_from_name(a.off_axis);
@@ -61,7 +61,7 @@ void add_theory(CLI::App& app) {
   command->add_option("CASE", a.file, "case file (default: the ready case le2010_osb)");
   command->add_option("--set", a.overrides, "change a key of the case, key.path=value");
   command->add_option("--compaction", a.compactions, "list (default: those of the case)")->delimiter(',');
-  command->add_option("--compliance-t", a.compliances, "1/D_t in mm/MPa, list (default: those of the case)")
+  command->add_option("--compliance-t", a.compliances_t, "1/D_t in mm/MPa, list (default: those of the case)")
       ->delimiter(',');
   command->add_option("--strand-length-mm", a.question.lengths_mm, "of strands along the panel, list")->delimiter(',');
   command->add_option("--gap-mm", a.question.gaps_mm, "between strands along the panel, list")->delimiter(',');

@@ -50,10 +50,10 @@ function tiles(run: Run): HTMLElement | null {
   for (const test of moduli?.distinct('test') ?? []) {
     const rows = moduli!.where('test', test);
     const end = rows.where('compaction', rows.text('compaction')[rows.rows.length - 1]!);
-    const compliance = end.numbers('compliance_t_mm_per_MPa');
-    const i = compliance.indexOf(Math.min(...compliance));
+    const complianceT = end.numbers('compliance_t_mm_per_MPa');
+    const i = complianceT.indexOf(Math.min(...complianceT));
     facts.push([`${nameOf(run, test).replace(/ \(.*/, '')} modulus`, formatNumber(Number((end.numbers('modulus_MPa')[i]! / 1000).toPrecision(3))),
-      `GPa at ${stateName(run, end.numbers('compaction')[i]!)}, ${compliance[i] === 0 ? 'perfect bond' : `1/Dₜ ${compliance[i]} mm/MPa`}`]);
+      `GPa at ${stateName(run, end.numbers('compaction')[i]!)}, ${complianceT[i] === 0 ? 'perfect bond' : `1/Dₜ ${complianceT[i]} mm/MPa`}`]);
   }
   return facts.length === 0 ? null : el('dl', {class: 'tiles'}, ...facts.map(([name, value, unit]) =>
     el('div', {class: 'tile'}, el('dt', {}, name), el('dd', {}, el('b', {}, value), ' ', el('span', {}, unit)))));
@@ -133,7 +133,7 @@ function pressCharts(run: Run): Chart[] {
 }
 
 // A model's values over x in place of a measured series: dashed, one dash for each model. Models repeat their values for
-// every compliance; `of` picks x.
+// every 1/D_t; `of` picks x.
 function theorySeries(theory: Table | undefined, x: (row: Table) => number[], split?: string): Series[] {
   return (theory?.distinct('model') ?? []).flatMap(model => {
     const rows = theory!.where('model', model);
@@ -154,11 +154,11 @@ function modulusCharts(run: Run): Chart[] {
     const theory = table(run, 'theory.csv')?.where('test', test);
     const glueFree = theory && new Table(theory.columns, theory.rows.filter(row => !row.includes('shear-lag')));
     const compactions = rows.distinct('compaction');
-    const compliances = rows.distinct('compliance_t_mm_per_MPa');
-    const over = (x: (row: Table) => number[]) => compliances.map((value, i): Series => {
+    const compliancesT = rows.distinct('compliance_t_mm_per_MPa');
+    const over = (x: (row: Table) => number[]) => compliancesT.map((value, i): Series => {
       const line = rows.where('compliance_t_mm_per_MPa', value);
       return {name: Number(value) === 0 ? 'perfect bond' : `1/Dₜ ${value}`, x: x(line), y: line.numbers('modulus_MPa'), style: 'marked',
-              family: [i, compliances.length]};
+              family: [i, compliancesT.length]};
     });
     const compaction = (row: Table) => row.numbers('compaction').map(c => 100 * c);
     const densification = (row: Table) => row.numbers('compaction').map(c => 1 / (1 - c));
@@ -287,8 +287,8 @@ function caseFacts(run: Run): HTMLElement {
       ['States kept at', c.compactions.map(value => fullStateName(run, value)).join(', ')],
     ]),
     facts('Glue', [
-      ['Shear compliance 1/Dₜ', `${glue} mm/MPa`],
-      ['Normal compliance 1/Dₙ', c.compliance_n_mm_per_MPa === 0 ? '0 (perfect)' : `${c.compliance_n_mm_per_MPa} mm/MPa`],
+      ['Glue compliance 1/Dₜ', `${glue} mm/MPa`],
+      ['Glue compliance 1/Dₙ', c.compliance_n_mm_per_MPa === 0 ? '0 (perfect)' : `${c.compliance_n_mm_per_MPa} mm/MPa`],
       ['Faces bond up to a gap of', `${c.max_gap_mm} mm`],
     ]));
 }

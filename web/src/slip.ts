@@ -20,7 +20,7 @@ const strain = 1e-3;
 export function slipState(compaction: number, text: string): SlipState | undefined {
   const table = parseCsv(text);
   if (table.rows.length === 0) return undefined;
-  const [compliance, a, b, x, y, slip] = ['compliance_t_mm_per_MPa', 'strand_a', 'strand_b', 'x_mm', 'y_mm', 'slip_mm_per_strain']
+  const [complianceT, a, b, x, y, slip] = ['compliance_t_mm_per_MPa', 'strand_a', 'strand_b', 'x_mm', 'y_mm', 'slip_mm_per_strain']
     .map(name => table.numbers(name)) as [number[], number[], number[], number[], number[], number[]];
   const um = slip.map(s => 1000 * strain * Math.abs(s));
   const lines: SlipLine[] = [];
@@ -38,5 +38,5 @@ export function slipState(compaction: number, text: string): SlipState | undefin
     lines.push({a: a[first]!, b: b[first]!, points, slip_um: Float32Array.from(um.slice(first, end))});
   }
   const sorted = [...um].sort((p, q) => p - q);
-  return {compaction, compliance_t_mm_per_MPa: compliance[0]!, strain, highest_um: sorted[Math.floor(0.99 * (sorted.length - 1))] || 1, lines};
+  return {compaction, compliance_t_mm_per_MPa: complianceT[0]!, strain, highest_um: sorted[Math.floor(0.99 * (sorted.length - 1))] || 1, lines};
 }

@@ -10,23 +10,19 @@
 
 namespace strandlab::benchmark {
 
-struct Phases {  // ns per particle-step
-  double weights = 0, scatter = 0, surface = 0, grid = 0, contact = 0, gather = 0, material = 0;
-};
-
 struct Result {
   int threads = 1;
   double elastic_ns_per_particle_step = 0;   // strands that touch and press on each other but do not yield
   double press_ns_per_particle_step = 0;     // at kMidPress compaction
   double one_body_ns_per_particle_step = 0;  // elastic, the same number of particles as one body: what contact costs
   double elastic_3d_ns_per_particle_step = 0;
-  double plastic_fraction = 0;     // of the particles, mid-press
-  double fields_per_node = 0;      // mid-press
-  double static_solve_s = 0;       // per 1/D_t: assembly, factor, solves; 3 elements through a strand
-  double static_solve_fine_s = 0;  // at 6 elements through a strand
-  double bytes_per_particle = 0;   // held by the engine
-  double peak_memory_mb = 0;       // of the whole process, static solves included
-  Phases elastic_phases, press_phases;
+  double plastic_fraction = 0;                   // of the particles, mid-press
+  double fields_per_node = 0;                    // mid-press
+  double static_solve_s = 0;                     // per 1/D_t: assembly, factor, solves; 3 elements through a strand
+  double static_solve_fine_s = 0;                // at 6 elements through a strand
+  double bytes_per_particle = 0;                 // held by the engine
+  double peak_memory_mb = 0;                     // of the whole process, static solves included
+  mpm::Phases elastic_phases{}, press_phases{};  // ns per particle-step
   MachineLimits machine;
 };
 

@@ -7,7 +7,7 @@
 namespace strandlab::benchmark {
 namespace {
 
-nlohmann::json to_json(const Phases& p) {
+nlohmann::json to_json(const mpm::Phases& p) {
   return {{"weights", p.weights}, {"scatter", p.scatter}, {"surface", p.surface},  {"grid", p.grid},
           {"contact", p.contact}, {"gather", p.gather},   {"material", p.material}};
 }
@@ -30,7 +30,7 @@ nlohmann::json to_json(const Result& r) {
           {"press_phases_ns", to_json(r.press_phases)}};
 }
 
-std::string phases_text(const char* name, const Phases& p) {
+std::string phases_text(const char* name, const mpm::Phases& p) {
   return fmt::format(
       "    {:<10} weights {:.1f}  scatter {:.1f}  surface {:.1f}  grid {:.1f}  contact {:.1f}  gather {:.1f}  material "
       "{:.1f}\n",
@@ -56,8 +56,7 @@ std::string text_of(const Result& r, const Result& first) {
   text +=
       fmt::format("  memory                 {:6.0f} bytes per particle in the engine, peak of the process {:.0f} MB\n",
                   r.bytes_per_particle, r.peak_memory_mb);
-  text +=
-      fmt::format("  split by phase, profiled (the clock adds a few ns), ns per particle-step, threads added up:\n");
+  text += fmt::format("  split by phase, timed (the clock adds a few ns), ns per particle-step, threads added up:\n");
   text += phases_text("elastic", r.elastic_phases);
   text += phases_text("mid-press", r.press_phases);
   return text;

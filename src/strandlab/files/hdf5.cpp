@@ -100,8 +100,8 @@ void write_text_attribute(hid_t object, const char* name, const std::string& val
 }
 
 // No time stamps: the same state gives the same bytes.
-Id without_times(hid_t kind) {
-  Id properties(checked(H5Pcreate(kind)), H5Pclose);
+Id without_times(hid_t list_class) {
+  Id properties(checked(H5Pcreate(list_class)), H5Pclose);
   checked(H5Pset_obj_track_times(properties, false));
   return properties;
 }

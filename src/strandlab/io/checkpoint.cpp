@@ -101,7 +101,7 @@ void visit_press(AnyCheckpoint& checkpoint, const Visit& visit) {
 }
 
 template <class AnyPanel, class Visit>
-void visit_frame(AnyPanel& panel, const Visit& visit) {
+void visit_panel(AnyPanel& panel, const Visit& visit) {
   auto& [length, depth, initial_thickness, bottom, top, time, strands] = panel;
   static_cast<void>(strands);
   visit("length_mm", Label{"mm", "length of the window along x"}, length);
@@ -249,7 +249,7 @@ void write_points(Writer& out, const Panel<Dim>& panel) {
 
 template <int Dim>
 void write_panel_group(Writer& out, const Panel<Dim>& panel) {
-  visit_frame(panel, [&](const char* name, const Label& label, double value) {
+  visit_panel(panel, [&](const char* name, const Label& label, double value) {
     write_scalar(out, std::string("/panel/") + name, value, label);
   });
   write_strand_lists(out, panel);
@@ -337,7 +337,7 @@ void read_points(const Reader& in, Panel<Dim>& panel) {
 template <int Dim>
 Panel<Dim> read_panel_group(const Reader& in) {
   Panel<Dim> panel;
-  visit_frame(panel, [&](const char* name, const Label&, double& value) {
+  visit_panel(panel, [&](const char* name, const Label&, double& value) {
     read_scalar(in, std::string("/panel/") + name, value);
   });
   read_strand_lists(in, panel);

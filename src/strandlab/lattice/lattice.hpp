@@ -24,9 +24,9 @@ Value zero_of() {
   }
 }
 
-// Face of a lattice: where the numbers of one axis are lowest (side 0) or highest (side 1).
+// Face of a lattice: where the numbers of one axis are lowest (end 0) or highest (end 1).
 struct LatticeFace {
-  int axis = 0, side = 0;
+  int axis = 0, end = 0;
   const char* name = "";
 };
 
@@ -107,9 +107,9 @@ auto corner_means(const Lattice<Dim>& lattice, const Say& say) {
       auto at = place;
       Vec<Dim> offset;
       for (int a = 0; a < Dim; ++a) {
-        const int side = static_cast<int>(k >> static_cast<unsigned>(a) & 1U);
-        at[a] += side;
-        offset[a] = (side - 0.5) * lattice.spacing[a];
+        const int end = static_cast<int>(k >> static_cast<unsigned>(a) & 1U);
+        at[a] += end;
+        offset[a] = (end - 0.5) * lattice.spacing[a];
       }
       const auto c = lattice.corner(at);
       sum[c] += say(p, offset);
@@ -227,7 +227,7 @@ std::array<std::size_t, 1U << Dim> Lattice<Dim>::cell(std::size_t point) const {
 template <int Dim>
 std::vector<std::size_t> Lattice<Dim>::on_face(const LatticeFace& face, int more) const {
   std::vector<std::size_t> numbers;
-  const int fixed = face.side == 0 ? 0 : counts[face.axis] + more - 1;
+  const int fixed = face.end == 0 ? 0 : counts[face.axis] + more - 1;
   for (std::size_t n = 0; n < product(more); ++n) {
     if (place(n, more)[face.axis] == fixed) numbers.push_back(n);
   }

@@ -1,4 +1,4 @@
-#include "strandlab/mpm/engine.hpp"
+#include "strandlab/mpm/body.hpp"
 
 namespace strandlab::mpm {
 namespace {
@@ -9,7 +9,7 @@ Face<Dim> surface(const Lattice<Dim>& lattice, const LatticeFace& at) {
   Face<Dim> face;
   face.name = at.name;
   Vec<Dim> offset = Vec<Dim>::Zero(), area = Vec<Dim>::Zero();
-  const double sign = at.side == 0 ? -1 : 1;
+  const double sign = at.end == 0 ? -1 : 1;
   offset[at.axis] = sign * 0.5 * lattice.spacing[at.axis];
   area[at.axis] = sign * lattice.point_volume() / lattice.spacing[at.axis];
   for (const auto p : lattice.face_points(at)) face.particle.push_back(static_cast<int>(p));

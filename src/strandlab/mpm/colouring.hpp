@@ -10,9 +10,9 @@
 namespace strandlab::mpm {
 
 // Throws RunError naming the body and a place where two tiles of one colour reach the same node, now or before the
-// windows are laid again: by a particle, by its mirror image in a platen or by a face point.
+// patches are laid again: by a particle, by its mirror image in a platen or by a face point.
 template <int Dim>
-void check_colouring(const TilePlan& plan, const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f,
+void check_colouring(const TilePlan& plan, const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step,
                      const EngineState& state);
 
 }  // namespace strandlab::mpm

@@ -7,16 +7,17 @@
 #include <cmath>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/members.hpp"
 #include "strandlab/core/thread_team.hpp"
 #include "strandlab/mpm/checks.hpp"
 #include "strandlab/mpm/colouring.hpp"
 #include "strandlab/mpm/fields.hpp"
+#include "strandlab/mpm/loads.hpp"
 #include "strandlab/mpm/particles.hpp"
 #include "strandlab/mpm/rollers.hpp"
-#include "strandlab/mpm/springs.hpp"
+#include "strandlab/mpm/sums.hpp"
 #include "strandlab/mpm/tiles.hpp"
 #include "strandlab/mpm/time_step.hpp"
-#include "strandlab/mpm/tractions.hpp"
 #include "strandlab/mpm/velocity_filter.hpp"
 
 namespace strandlab::mpm {
@@ -24,7 +25,7 @@ namespace {
 
 constexpr int kTimeStepInterval = 32;  // steps between updates of the time step, and between checks of all particles
 constexpr double kFarInAStep = 0.1;    // cells; particles that move further in a step are checked after it
-constexpr double kMaxDrift = 0.45;     // cells a particle may move, of kWindowDrift, before the windows are laid again
+constexpr double kMaxDrift = 0.45;     // cells a particle may move, of kPatchDrift, before the patches are laid again
 constexpr double kFilterDrift = 0.1;   // the same before a step that filters: it looks at positions after the step
 
 double seconds() {
@@ -51,18 +52,16 @@ struct Engine<Dim>::Impl {
   Fields fields;
   std::vector<BodyView<Dim>> views;
   std::vector<PencilResult> pencil_results;
-  Tractions<Dim> tractions;
-  Springs<Dim> springs;
+  Loads<Dim> loads;
   VelocityFilter filter;
   bool has_platens = false;
-  Vec<Dim> gravity = Vec<Dim>::Zero();
   EngineState state;
   double first_time_step = 0;
   std::array<double, 3> furthest{};  // cells that a particle moved at most in the last step, per axis
-  std::array<double, 3> drift{};     // cells that points may have moved since the windows were laid, per axis
-  bool windows_valid = false;
+  std::array<double, 3> drift{};     // cells that points may have moved since the patches were laid, per axis
+  bool patches_valid = false;
   double force[2] = {0, 0};  // N, of the bottom and top platens
-  Timing timing;             // in ticks
+  Phases ticks_by_phase{};
   double timing_ticks = 0, timing_seconds = 0;
   double yield_visits = 0;
   long long particle_steps = 0;
@@ -80,7 +79,7 @@ struct Engine<Dim>::Impl {
     }
     plan = sort_by_colour(tiles);
     tile_results.resize(tiles.size());
-    tractions = Tractions<Dim>(input);
+    std::get<Tractions<Dim>>(loads) = Tractions<Dim>(input);
     state.time_step_s = first_time_step = time_step();
   }
 
@@ -89,16 +88,15 @@ struct Engine<Dim>::Impl {
     return (state.top.position - state.bottom.position) / (grid.hi[Dim - 1] - grid.lo[Dim - 1]);
   }
 
-  Frame<Dim> frame() const {
-    Frame<Dim> f{};
+  Step<Dim> this_step() const {
+    Step<Dim> step{};
     for (int a = 0; a < Dim; ++a) {
-      f.origin[a] = grid.origin[a];
-      f.cell[a] = grid.cell[a];
-      f.gravity[a] = gravity[a];
+      step.origin[a] = grid.origin[a];
+      step.cell[a] = grid.cell[a];
       for (int side = 0; side < 2; ++side) {
-        f.wall[a][side] = kNoWall;
+        step.wall[a][side] = kNoWall;
         if (a < Dim - 1 && grid.sides[a][side] == Side::kRoller) {
-          f.wall[a][side] =
+          step.wall[a][side] =
               static_cast<int>(std::lround(((side == 0 ? grid.lo[a] : grid.hi[a]) - grid.origin[a]) / grid.cell[a]));
         }
       }
@@ -106,63 +104,61 @@ struct Engine<Dim>::Impl {
     const int y = Dim - 1;
     if (grid.follow_platens && has_platens) {
       const double s = stretch();
-      f.cell[y] = grid.cell[y] * s;
-      f.origin[y] = state.bottom.position + (grid.origin[y] - grid.lo[y]) * s;
+      step.cell[y] = grid.cell[y] * s;
+      step.origin[y] = state.bottom.position + (grid.origin[y] - grid.lo[y]) * s;
     }
-    for (int a = 0; a < Dim; ++a) f.inverse_cell[a] = 1 / f.cell[a];
-    f.dt = state.time_step_s;
-    f.transit = state.time_step_s / options.courant;
-    f.platen[0] = {has_platens, state.bottom.position, state.bottom.velocity};
-    f.platen[1] = {has_platens, state.top.position, state.top.velocity};
-    return f;
+    for (int a = 0; a < Dim; ++a) step.inverse_cell[a] = 1 / step.cell[a];
+    step.dt = state.time_step_s;
+    step.transit = state.time_step_s / options.courant;
+    step.platen[0] = {has_platens, state.bottom.position, state.bottom.velocity};
+    step.platen[1] = {has_platens, state.top.position, state.top.velocity};
+    return step;
   }
 
-  double time_step() const { return options.courant * step_limit(bodies, frame()).time_s; }
+  double time_step() const { return options.courant * step_limit(bodies, this_step()).time_s; }
 
   bool filter_due() const { return options.filter_interval > 0 && (state.step + 1) % options.filter_interval == 0; }
-  bool windows_stale() const {
-    return !windows_valid || *std::max_element(drift.begin(), drift.end()) > (filter_due() ? kFilterDrift : kMaxDrift);
+  bool patches_stale() const {
+    return !patches_valid || *std::max_element(drift.begin(), drift.end()) > (filter_due() ? kFilterDrift : kMaxDrift);
   }
 
-  // Windows around a particle that has flown off would not fit into memory.
+  // Patches around a particle that has flown off would not fit into memory.
   void check_particles() const {
     check_inside(bodies, grid, state);
     check_stretch(bodies, state);
   }
 
-  void make_windows() {
-    const Frame<Dim> f = frame();
-    check_colouring(plan, bodies, f, state);
-    lay_windows(bodies, f, state, fields);
+  void make_patches() {
+    const Step<Dim> step = this_step();
+    check_colouring(plan, bodies, step, state);
+    lay_patches(bodies, step, state, fields);
     pencil_results.resize(fields.table.pencils.size());
     views = views_of(bodies, fields);
     drift = {};
-    windows_valid = true;
+    patches_valid = true;
   }
 
   void step() {
-    const double t0 = options.profile ? seconds() : 0, c0 = options.profile ? ticks() : 0;
-    // When particles are checked depends on the step and their motion alone, not on where windows were laid: a run that
+    const double t0 = options.timed ? seconds() : 0, c0 = options.timed ? ticks() : 0;
+    // When particles are checked depends on the step and their motion alone, not on where patches were laid: a run that
     // goes on from a checkpoint fails where an undisturbed one does.
     if (state.step % kTimeStepInterval == 0) {
       update_time_step();
       check_particles();
     }
-    if (windows_stale()) make_windows();
-    const Frame<Dim> f = frame();
-    scatter(f);
-    tractions.apply(bodies, f, fields);
-    springs.apply(bodies, f, fields);
-    fold(f, fields);
-    update_grid(f);
-    unfold(f, fields);
-    tractions.book(bodies, f, fields, state.energies.external_work);
-    springs.stretch(bodies, f, fields);
-    gather(f);
-    if (filter_due()) state.energies.filter += filter.apply(f, fields, bodies);
-    advance(f);
+    if (patches_stale()) make_patches();
+    const Step<Dim> step = this_step();
+    scatter(step);
+    apply(loads, bodies, step, fields);
+    fold(step, fields);
+    update_grid(step);
+    unfold(step, fields);
+    book(loads, bodies, step, fields, state.energies.external_work);
+    gather(step);
+    if (filter_due()) state.energies.filter += filter.apply(step, fields, bodies);
+    advance(step);
     if (*std::max_element(furthest.begin(), furthest.end()) > kFarInAStep) check_particles();
-    if (options.profile) {
+    if (options.timed) {
       timing_seconds += seconds() - t0;
       timing_ticks += ticks() - c0;
     }
@@ -172,21 +168,21 @@ struct Engine<Dim>::Impl {
   void impose(double dt, const std::function<Vec<Dim>(const Vec<Dim>&)>& velocity) {
     state.time_step_s = dt;
     check_particles();
-    if (windows_stale()) make_windows();
-    const Frame<Dim> f = frame();
+    if (patches_stale()) make_patches();
+    const Step<Dim> step = this_step();
     const double filtered_before = state.energies.filter;
-    scatter(f);
-    impose_velocity(f, velocity, fields);
-    gather(f);
+    scatter(step);
+    impose_velocity(step, velocity, fields);
+    gather(step);
     state.energies.filter = filtered_before;
-    advance(f);
+    advance(step);
     state.time_step_s = time_step();  // for steps that follow
   }
 
   void update_time_step() {
     state.time_step_s = time_step();
     if (state.time_step_s > 1e-4 * first_time_step) return;
-    const auto limit = step_limit(bodies, frame());
+    const auto limit = step_limit(bodies, this_step());
     const std::string where =
         limit.body ? fmt::format("{} at ({})", limit.body->name, text<Dim>(limit.body->position(limit.particle)))
                    : "no particle";
@@ -194,7 +190,7 @@ struct Engine<Dim>::Impl {
                                state.time_step_s, first_time_step, where));
   }
 
-  void scatter(const Frame<Dim>& f) {
+  void scatter(const Step<Dim>& step) {
     std::fill(tile_results.begin(), tile_results.end(), TileResult{});
     clear(fields.nodes);
     clear(fields.surface);
@@ -202,8 +198,8 @@ struct Engine<Dim>::Impl {
       const int begin = plan.colour_begin[colour], end = plan.colour_begin[colour + 1];
       team.for_each(end - begin, 2, [&](int i) {
         const int t = begin + i;
-        kernel->scatter(plan.tiles[t], views[plan.tiles[t].body], f, fields.nodes.data(), fields.surface.data(),
-                        bodies[plan.tiles[t].body].lanes.data(), options.profile, tile_results[t]);
+        kernel->scatter(plan.tiles[t], views[plan.tiles[t].body], step, fields.nodes.data(), fields.surface.data(),
+                        bodies[plan.tiles[t].body].lanes.data(), options.timed, tile_results[t]);
       });
     }
   }
@@ -217,7 +213,7 @@ struct Engine<Dim>::Impl {
     });
   }
 
-  void update_grid(const Frame<Dim>& f) {
+  void update_grid(const Step<Dim>& step) {
     GridView<Dim> view{};
     view.nodes = fields.nodes.data();
     view.surface = fields.surface.data();
@@ -227,81 +223,67 @@ struct Engine<Dim>::Impl {
     view.friction = options.friction;
     view.platen_friction = options.platen_friction;
     const auto count = static_cast<int>(fields.table.pencils.size());
-    const double start = options.profile ? ticks() : 0;
+    const double start = options.timed ? ticks() : 0;
     team.for_each(count, 8, [&](int p) {
       pencil_results[p] = PencilResult{};
-      kernel->update_grid(fields.table.pencils[p], f, view, options.profile, pencil_results[p]);
+      kernel->update_grid(fields.table.pencils[p], step, view, options.timed, pencil_results[p]);
     });
     PencilResult total{};
-    for (const auto& r : pencil_results) {
-      total.friction += r.friction;
-      total.contact += r.contact;
-      total.platen_work += r.platen_work;
-      total.kinetic_change += r.kinetic_change;
-      total.force_change += r.force_change;
-      total.external_work += r.external_work;
-      total.contact_ticks += r.contact_ticks;
-      total.overflow |= r.overflow;
-      total.unconverged += r.unconverged;
-      for (int k = 0; k < 2; ++k) total.platen_impulse[k] += r.platen_impulse[k];
-    }
-    if (total.overflow) {
-      const auto where = std::find_if(pencil_results.begin(), pencil_results.end(), [](auto& r) { return r.overflow; });
+    for (const auto& r : pencil_results) add(total, r);
+    if (total.overflow > 0) {
+      const auto where =
+          std::find_if(pencil_results.begin(), pencil_results.end(), [](auto& r) { return r.overflow > 0; });
       const int column = fields.table.pencils[where - pencil_results.begin()].index[0];
       throw RunError(fmt::format("{}: more than {} bodies meet at one grid node near x = {:.4f} mm", moment(state),
-                                 kMaxFields, f.origin[0] + column * f.cell[0]));
+                                 kMaxFields, step.origin[0] + column * step.cell[0]));
     }
     state.energies.friction += total.friction;
     state.energies.contact += total.contact;
     state.energies.platen_work += total.platen_work;
-    state.energies.external_work += total.external_work;
     state.energies.filter += total.kinetic_change + total.force_change;
     state.unconverged_contacts += total.unconverged;
-    for (int k = 0; k < 2; ++k) force[k] = total.platen_impulse[k] / f.dt;
-    if (options.profile) {
+    for (int k = 0; k < 2; ++k) force[k] = total.platen_impulse[k] / step.dt;
+    if (options.timed) {
       const double all = (ticks() - start) * (options.threads > 1 ? options.threads : 1);
-      timing.contact += total.contact_ticks;
-      timing.grid += all - total.contact_ticks;
+      ticks_by_phase.contact += total.contact_ticks;
+      ticks_by_phase.grid += all - total.contact_ticks;
     }
   }
 
-  void gather(const Frame<Dim>& f) {
+  void gather(const Step<Dim>& step) {
     const auto count = static_cast<int>(plan.tiles.size());
     team.for_each(count, 2, [&](int t) {
-      kernel->gather(plan.tiles[t], views[plan.tiles[t].body], f, fields.nodes.data(),
-                     bodies[plan.tiles[t].body].lanes.data(), options.profile, tile_results[t]);
+      kernel->gather(plan.tiles[t], views[plan.tiles[t].body], step, fields.nodes.data(),
+                     bodies[plan.tiles[t].body].lanes.data(), options.timed, tile_results[t]);
     });
     long long yielding = 0;
     furthest = {};
     for (int t = 0; t < count; ++t) {
-      const auto& r = tile_results[t];
-      state.energies.plastic += r.plastic;
-      state.energies.filter -= r.kinetic_change + r.stress_change;
-      yielding += r.yielding;
-      for (int a = 0; a < 3; ++a) furthest[a] = std::max(furthest[a], r.drift[a]);
-      if (r.bad) throw particle_failure(bodies[plan.tiles[t].body], r.bad - 1, state);
-      timing.weights += r.ticks[0];
-      timing.scatter += r.ticks[1];
-      timing.surface += r.ticks[2];
-      timing.material += r.ticks[3];
-      timing.gather += r.ticks[4];
+      // All of the result: another member stops the compiler here.
+      const auto& [plastic, kinetic_change, stress_change, moved, yields, bad, ticks] = tile_results[t];
+      state.energies.plastic += plastic;
+      state.energies.filter -= kinetic_change + stress_change;
+      yielding += yields;
+      for (int a = 0; a < 3; ++a) furthest[a] = std::max(furthest[a], moved[a]);
+      if (bad) throw particle_failure(bodies[plan.tiles[t].body], bad - 1, state);
+      add(ticks_by_phase, ticks);
     }
     for (int a = 0; a < 3; ++a) drift[a] += furthest[a];
     yield_visits += static_cast<double>(yielding);
     particle_steps += static_cast<long long>(particle_count);
   }
 
-  void advance(const Frame<Dim>& f) {
+  void advance(const Step<Dim>& step) {
     ++state.step;
-    state.time_s += f.dt;
+    state.time_s += step.dt;
     if (!has_platens) return;
     const double before = stretch();
-    state.bottom.position += state.bottom.velocity * f.dt;
-    state.top.position += state.top.velocity * f.dt;
+    state.bottom.position += state.bottom.velocity * step.dt;
+    state.top.position += state.top.velocity * step.dt;
     // Grid lines that follow the platens move by at most the platens' own displacement.
     if (grid.follow_platens) {
-      const double moved = std::max(std::abs(state.bottom.velocity), std::abs(state.top.velocity)) * f.dt;
-      drift[Dim - 1] += moved * f.inverse_cell[Dim - 1] + (before - stretch()) / before;
+      const double moved = std::max(std::abs(state.bottom.velocity), std::abs(state.top.velocity)) * step.dt;
+      drift[Dim - 1] += moved * step.inverse_cell[Dim - 1] + (before - stretch()) / before;
     }
   }
 };
@@ -321,7 +303,7 @@ void Engine<Dim>::set_platens(const Platen& bottom, const Platen& top) {
   impl_->state.bottom = bottom;
   impl_->state.top = top;
   impl_->has_platens = true;
-  impl_->windows_valid = false;
+  impl_->patches_valid = false;
 }
 template <int Dim>
 void Engine<Dim>::set_platen_velocities(double bottom, double top) {
@@ -330,7 +312,7 @@ void Engine<Dim>::set_platen_velocities(double bottom, double top) {
 }
 template <int Dim>
 void Engine<Dim>::set_gravity(const Vec<Dim>& g) {
-  impl_->gravity = g;
+  std::get<Gravity<Dim>>(impl_->loads).set(g);
 }
 template <int Dim>
 void Engine<Dim>::set_traction(int body, int face, const Vec<Dim>& traction) {
@@ -339,11 +321,11 @@ void Engine<Dim>::set_traction(int body, int face, const Vec<Dim>& traction) {
       face >= static_cast<int>(bodies[static_cast<std::size_t>(body)].faces.size())) {
     throw InputError(fmt::format("traction on face {} of body {}, which is not there", face, body));
   }
-  impl_->tractions.set(static_cast<std::size_t>(body), static_cast<std::size_t>(face), traction);
+  std::get<Tractions<Dim>>(impl_->loads).set(static_cast<std::size_t>(body), static_cast<std::size_t>(face), traction);
 }
 template <int Dim>
 void Engine<Dim>::set_springs(const std::vector<Spring<Dim>>& springs) {
-  impl_->springs.set(springs, impl_->bodies);
+  std::get<Springs<Dim>>(impl_->loads).set(springs, impl_->bodies);
 }
 template <int Dim>
 void Engine<Dim>::scale_velocities(double factor) {
@@ -352,7 +334,7 @@ void Engine<Dim>::scale_velocities(double factor) {
 template <int Dim>
 void Engine<Dim>::resume(const EngineState& state) {
   impl_->state = state;
-  impl_->windows_valid = false;
+  impl_->patches_valid = false;
 }
 template <int Dim>
 void Engine<Dim>::step() {
@@ -375,7 +357,7 @@ Energies Engine<Dim>::energies() const {
 }
 template <int Dim>
 double Engine<Dim>::spring_energy() const {
-  return impl_->springs.energy();
+  return std::get<Springs<Dim>>(impl_->loads).energy();
 }
 template <int Dim>
 double Engine<Dim>::mean_motion_energy() const {
@@ -403,9 +385,9 @@ double Engine<Dim>::top_force() const {
 }
 template <int Dim>
 Timing Engine<Dim>::timing() const {
-  Timing t = impl_->timing;
+  Timing t{.phases = impl_->ticks_by_phase};
   const double scale = impl_->timing_ticks > 0 ? impl_->timing_seconds / impl_->timing_ticks : 0;
-  for (double* v : {&t.weights, &t.surface, &t.scatter, &t.grid, &t.contact, &t.gather, &t.material}) *v *= scale;
+  for_each_member(t.phases, [scale](double& phase) { phase *= scale; });
   if (impl_->particle_steps > 0) t.plastic_fraction = impl_->yield_visits / static_cast<double>(impl_->particle_steps);
   t.fields_per_node = fields_per_node(impl_->fields);
   return t;

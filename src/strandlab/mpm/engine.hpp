@@ -5,54 +5,15 @@
 #include <array>
 #include <functional>
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
+#include "strandlab/mpm/body.hpp"
+#include "strandlab/mpm/phases.hpp"
+#include "strandlab/mpm/spring.hpp"
+#include "strandlab/mpm/state.hpp"
 #include "strandlab/panel/panel.hpp"
 
 namespace strandlab::mpm {
-
-// Part of a body's surface whose normals do not cancel: top, bottom, one end... A face point rides on a particle p: it
-// is at x_p + F_p offset, with outward area vector cof(F_p) area. Faces are kept apart because the top and the bottom
-// of a compacted strand reach the same node.
-template <int Dim>
-struct Face {
-  std::string name;
-  std::vector<int> particle;
-  std::vector<Vec<Dim>> offset;          // mm, at formation
-  std::vector<Vec<Dim>> area;            // mm (2D, per mm depth) or mm^2, outward, at formation
-  Vec<Dim> traction = Vec<Dim>::Zero();  // MPa, applied to the face (dead load on the area at formation)
-};
-
-// A deformable body: particles plus surface points.
-template <int Dim>
-struct Body {
-  std::string name;
-  wood::StrandMaterial material;
-  Lattice<Dim> lattice;  // of the particles; its spacing is a particle's domain at formation. No counts: any order
-  Points<Dim> points;    // the particles' state
-  std::vector<Face<Dim>> faces;
-};
-
-// The body of a strand: its lattice and its faces (top and bottom, the two ends, in 3D the two edges).
-template <int Dim>
-Body<Dim> body_of(const Strand<Dim>& strand);
-
-// A line of glue as springs: one between a point of body a and a point of body b, each of which rides on a particle p
-// at x_p + F_p offset. With [u] = u_b - u_a since the springs were set, body a is pulled by
-// area (stiffness_n [u_n] + stiffness_t [u_t]) and body b by its opposite.
-template <int Dim>
-struct Spring {
-  struct End {
-    int body = 0, particle = 0;
-    Vec<Dim> offset = Vec<Dim>::Zero();  // mm, at formation
-  };
-  End a, b;
-  Vec<Dim> normal;                          // unit
-  double area = 0;                          // mm (2D, per mm depth) or mm^2
-  double stiffness_t = 0, stiffness_n = 0;  // MPa/mm
-};
 
 enum class Side { kFree, kRoller };
 
@@ -68,51 +29,17 @@ struct Grid {
   bool follow_platens = false;  // cell height keeps its ratio to the platen gap; `cell` is for the gap hi - lo
 };
 
-// Rigid plane normal to the last axis. Moves with `velocity`.
-struct Platen {
-  double position = 0;  // mm
-  double velocity = 0;  // mm/s
-};
-
 struct Options {
   int threads = 1;
   double courant = 0.4;
   double friction = 0.3;         // between bodies, Coulomb
   double platen_friction = 0.3;  // body on platen
   int filter_interval = 0;       // steps between XPIC(2) filterings of the particle velocities; 0: pure FLIP
-  bool profile = false;          // measure Timing per phase
+  bool timed = false;            // measure Timing per phase
 };
 
-// Running totals, mJ (2D: per mm depth). Each from its own definition.
-struct Energies {
-  double kinetic = 0;   // of the particles, now
-  double elastic = 0;   // stored, now
-  double plastic = 0;   // dissipated: sum V0 tau : d eps_p
-  double friction = 0;  // dissipated by slip against friction
-  double contact = 0;   // lost in inelastic meetings (normal impulses)
-  // Lost in the algorithm: to the velocity filter, to lumping when impulses pass from grid to particles, and because
-  // forces change the grid's velocity over its mean in a step while stresses work on its last.
-  double filter = 0;
-  double platen_work = 0;    // done by the platens on the bodies
-  double external_work = 0;  // done by tractions and gravity
-};
-
-// All of the engine's state that is not in the bodies; with them it continues to the same bits.
-struct EngineState {
-  long long step = 0;
-  double time_s = 0;
-  double time_step_s = 0;
-  Platen bottom, top;
-  // Totals. The engine leaves kinetic and elastic alone, since they follow from the bodies: a checkpoint holds them as
-  // energies() gave them.
-  Energies energies;
-  // Nodes of several pairs, over all steps, whose velocities the last pass of contact still changed by a hundredth of
-  // the first pass's change.
-  long long unconverged_contacts = 0;
-};
-
-struct Timing {  // s, summed over threads; 0 unless Options::profile
-  double weights = 0, surface = 0, scatter = 0, grid = 0, contact = 0, gather = 0, material = 0;
+struct Timing {                 // 0 unless Options::timed
+  Phases phases{};              // s, summed over threads
   double fields_per_node = 0;   // mean over nodes with mass
   double plastic_fraction = 0;  // particle-steps that yielded
 };

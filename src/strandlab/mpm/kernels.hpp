@@ -2,6 +2,7 @@
 // compiled once per instruction set and must not share inline code with the rest of the program.
 #pragma once
 
+#include "strandlab/mpm/phases.hpp"
 #include "strandlab/wood/return_map.hpp"
 
 namespace strandlab::mpm {
@@ -27,15 +28,14 @@ struct Component {
 template <int Dim>
 inline constexpr int kSurfaceRecord = Dim == 2 ? 4 : 8;
 
-// Where the grid is in this step. Node i of an axis is at origin + i*cell.
+// Where the grid and the platens are in this step, and how long it is. Node i of an axis is at origin + i*cell.
 template <int Dim>
-struct Frame {
+struct Step {
   double origin[Dim];
   double cell[Dim];
   double inverse_cell[Dim];
   double dt;
-  double transit;  // s, of the fastest wave through a cell
-  double gravity[Dim];
+  double transit;    // s, of the fastest wave through a cell
   int wall[Dim][2];  // node index of a roller plane, or kNoWall
   struct {
     int present;
@@ -46,7 +46,7 @@ inline constexpr int kNoWall = 1 << 30;
 
 // Dense nodes of a field: `height` rows on each pencil (line of nodes through the thickness), each pencil with its own
 // offset, so that node (pencil, row) is record base[pencil] + row.
-struct Window {
+struct Patch {
   int first[2];  // first pencil along each lateral axis
   int count[2];  // pencils along each lateral axis (2D: count[1] = 1)
   int height;
@@ -55,7 +55,7 @@ struct Window {
 
 template <int Dim>
 struct SurfaceView {
-  Window window;
+  Patch patch;
   const int* where;      // particle of each face point: offset of its x component in the body's blocks
   const double* offset;  // packs: Dim components of 8 face points, then the next 8
   const double* area;
@@ -71,8 +71,8 @@ struct BodyView {
   const wood::YieldModes<4>* modes4;
   const wood::YieldModes<6>* modes6;
   wood::Law law;  // that holds
-  Window window;
-  Window mirror[2];  // nodes of its mirror images in the bottom and top platens; height 0: far away
+  Patch patch;
+  Patch mirror[2];  // nodes of its mirror images in the bottom and top platens; height 0: far away
   int faces;
   SurfaceView<Dim> face[kMaxFaces];
 };
@@ -94,8 +94,8 @@ struct TileResult {
   double stress_change;   // mJ, 1/2 sum V0 dtau : d eps
   double drift[3];        // largest displacement of a particle or a face point per axis, cells
   long long yielding;
-  int bad;          // block of the first particle that failed + 1, 0: none
-  double ticks[5];  // weights, scatter, surface, material, gather (when profiled)
+  int bad;       // block of the first particle that failed + 1, 0: none
+  Phases ticks;  // when timed
 };
 
 // A body's nodes on one pencil.
@@ -119,7 +119,7 @@ struct Pencil {
   int ghost;                   // behind a roller plane: folded onto its mirror image
 };
 
-// A field whose window holds a row of a pencil.
+// A field whose patch holds a row of a pencil.
 struct RowField {
   unsigned short field;  // relative to the pencil's first
   unsigned short faces;  // bit f: the rows of its face f hold this row
@@ -141,19 +141,18 @@ struct PencilResult {
   double platen_work;        // mJ
   double kinetic_change;     // mJ, 1/2 sum m |dv|^2 on the grid
   double force_change;       // mJ, 1/2 dt sum f.dv on the grid, f without the impulses of contact
-  double external_work;      // mJ
   double contact_ticks;
-  int overflow;     // more than kMaxFields fields at a node
+  int overflow;     // nodes where more than kMaxFields fields meet
   int unconverged;  // nodes whose impulses still changed by a hundredth after kContactPasses
 };
 
 template <int Dim>
 struct Kernels {
-  void (*scatter)(const Tile&, const BodyView<Dim>&, const Frame<Dim>&, double* nodes, double* surface,
-                  const unsigned char* lanes, bool profile, TileResult&);
-  void (*update_grid)(const Pencil&, const Frame<Dim>&, const GridView<Dim>&, bool profile, PencilResult&);
-  void (*gather)(const Tile&, const BodyView<Dim>&, const Frame<Dim>&, const double* nodes, const unsigned char* lanes,
-                 bool profile, TileResult&);
+  void (*scatter)(const Tile&, const BodyView<Dim>&, const Step<Dim>&, double* nodes, double* surface,
+                  const unsigned char* lanes, bool timed, TileResult&);
+  void (*update_grid)(const Pencil&, const Step<Dim>&, const GridView<Dim>&, bool timed, PencilResult&);
+  void (*gather)(const Tile&, const BodyView<Dim>&, const Step<Dim>&, const double* nodes, const unsigned char* lanes,
+                 bool timed, TileResult&);
   // Radius of the yield surface from the history variable, in the bits of gather.
   void (*set_radius)(const BodyView<Dim>&, int blocks);
 };

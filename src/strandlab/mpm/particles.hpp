@@ -82,7 +82,7 @@ struct Particles {
 template <int Dim>
 Particles<Dim> store_particles(const Body<Dim>& body, int number, std::vector<ColouredTile>& tiles);
 
-// What the kernels need of the body's wood: the part of its view that does not change with the windows.
+// What the kernels need of the body's wood: the part of its view that does not change with the patches.
 template <int Dim>
 BodyView<Dim> view_of_wood(Particles<Dim>& body);
 

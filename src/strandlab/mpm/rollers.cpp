@@ -4,8 +4,8 @@ namespace strandlab::mpm {
 namespace {
 
 template <int Dim>
-void fold_nodes(const WindowStore& w, const Frame<Dim>& f, AlignedArray& nodes) {
-  each_ghost(w, f, false, [&](int axis, int, int ghost, int mirror, int count) {
+void fold_nodes(const PatchStore& w, const Step<Dim>& step, AlignedArray& nodes) {
+  each_ghost(w, step, false, [&](int axis, int, int ghost, int mirror, int count) {
     for (int i = 0; i < count; ++i) {
       double* g = nodes.data() + static_cast<std::size_t>(ghost + i) * kRecord;
       double* m = nodes.data() + static_cast<std::size_t>(mirror + i) * kRecord;
@@ -18,9 +18,9 @@ void fold_nodes(const WindowStore& w, const Frame<Dim>& f, AlignedArray& nodes) 
 }
 
 template <int Dim>
-void fold_face(const WindowStore& w, const Frame<Dim>& f, AlignedArray& surface) {
-  each_ghost(w, f, false, [&](int axis, int side, int ghost, int mirror, int count) {
-    const double plane = f.origin[axis] + f.wall[axis][side] * f.cell[axis];
+void fold_face(const PatchStore& w, const Step<Dim>& step, AlignedArray& surface) {
+  each_ghost(w, step, false, [&](int axis, int side, int ghost, int mirror, int count) {
+    const double plane = step.origin[axis] + step.wall[axis][side] * step.cell[axis];
     for (int i = 0; i < count; ++i) {
       double* g = surface.data() + static_cast<std::size_t>(ghost + i) * kSurfaceRecord<Dim>;
       double* m = surface.data() + static_cast<std::size_t>(mirror + i) * kSurfaceRecord<Dim>;
@@ -30,8 +30,8 @@ void fold_face(const WindowStore& w, const Frame<Dim>& f, AlignedArray& surface)
     }
   });
   // On the plane itself a face and its image have no normal component across it; the distance to the face stays.
-  each_wall(w, f, [&](int axis, int side, int first, int count) {
-    const double plane = f.origin[axis] + f.wall[axis][side] * f.cell[axis];
+  each_wall(w, step, [&](int axis, int side, int first, int count) {
+    const double plane = step.origin[axis] + step.wall[axis][side] * step.cell[axis];
     for (int i = first; i < first + count; ++i) {
       double* s = surface.data() + static_cast<std::size_t>(i) * kSurfaceRecord<Dim>;
       s[Dim + 1] -= plane * s[axis];
@@ -43,18 +43,18 @@ void fold_face(const WindowStore& w, const Frame<Dim>& f, AlignedArray& surface)
 }  // namespace
 
 template <int Dim>
-void fold(const Frame<Dim>& f, Fields& fields) {
-  for (const auto& body : fields.windows) {
-    fold_nodes(body.field, f, fields.nodes);
-    for (const auto& image : body.mirrors) fold_nodes(image, f, fields.nodes);
-    for (const auto& face : body.faces) fold_face(face, f, fields.surface);
+void fold(const Step<Dim>& step, Fields& fields) {
+  for (const auto& body : fields.patches) {
+    fold_nodes(body.field, step, fields.nodes);
+    for (const auto& image : body.mirrors) fold_nodes(image, step, fields.nodes);
+    for (const auto& face : body.faces) fold_face(face, step, fields.surface);
   }
 }
 
 template <int Dim>
-void unfold(const Frame<Dim>& f, Fields& fields) {
-  for (const auto& body : fields.windows) {
-    each_ghost(body.field, f, true, [&](int axis, int, int ghost, int mirror, int count) {
+void unfold(const Step<Dim>& step, Fields& fields) {
+  for (const auto& body : fields.patches) {
+    each_ghost(body.field, step, true, [&](int axis, int, int ghost, int mirror, int count) {
       for (int i = 0; i < count; ++i) {
         double* g = fields.nodes.data() + static_cast<std::size_t>(ghost + i) * kRecord;
         const double* m = fields.nodes.data() + static_cast<std::size_t>(mirror + i) * kRecord;
@@ -64,9 +64,9 @@ void unfold(const Frame<Dim>& f, Fields& fields) {
   }
 }
 
-template void fold(const Frame<2>&, Fields&);
-template void fold(const Frame<3>&, Fields&);
-template void unfold(const Frame<2>&, Fields&);
-template void unfold(const Frame<3>&, Fields&);
+template void fold(const Step<2>&, Fields&);
+template void fold(const Step<3>&, Fields&);
+template void unfold(const Step<2>&, Fields&);
+template void unfold(const Step<3>&, Fields&);
 
 }  // namespace strandlab::mpm

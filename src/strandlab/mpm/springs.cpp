@@ -33,7 +33,7 @@ void check(std::size_t i, const Spring<Dim>& s, const std::vector<Particles<Dim>
 // the upright domain that its mass is spread over, perhaps by a node of no mass: the end stays within that domain.
 template <int Dim, class Visit>  // visit(offset of a node's record, weight)
 void each_spring_node(const typename Spring<Dim>::End& end, const std::vector<Particles<Dim>>& bodies,
-                      const Frame<Dim>& f, const Fields& fields, Visit visit) {
+                      const Step<Dim>& step, const Fields& fields, Visit visit) {
   using C = Component<Dim>;
   const double* d = bodies[end.body].data.data() + bodies[end.body].where[end.particle];
   std::array<int, Dim> node;
@@ -43,7 +43,7 @@ void each_spring_node(const typename Spring<Dim>::End& end, const std::vector<Pa
     for (int b = 0; b < Dim; ++b) ride += d[(C::F + a * Dim + b) * kBlock] * end.offset[b];
     const double reach = bodies[end.body].half_width(d, a);
     const double x = d[(C::x + a) * kBlock] + std::clamp(ride, -reach, reach);
-    const double xi = (x - f.origin[a]) * f.inverse_cell[a];
+    const double xi = (x - step.origin[a]) * step.inverse_cell[a];
     node[a] = static_cast<int>(std::floor(xi));
     part[a] = xi - node[a];
     if (part[a] > 1 - 1e-9) {  // a point on a grid line acts on that line alone
@@ -53,15 +53,15 @@ void each_spring_node(const typename Spring<Dim>::End& end, const std::vector<Pa
       part[a] = 0;
     }
   }
-  const WindowStore& w = fields.windows[end.body].field;
+  const PatchStore& w = fields.patches[end.body].field;
   for (int q = 0; q < (1 << Dim); ++q) {
     double weight = 1;
     for (int a = 0; a < Dim; ++a) weight *= (q >> a) & 1 ? part[a] : 1 - part[a];
     if (!(weight > 0)) continue;
-    const int column = node[0] + (q & 1) - w.window.first[0];
-    const int across = Dim == 2 ? 0 : node[Dim - 2] + ((q >> (Dim - 2)) & 1) - w.window.first[1];
+    const int column = node[0] + (q & 1) - w.patch.first[0];
+    const int across = Dim == 2 ? 0 : node[Dim - 2] + ((q >> (Dim - 2)) & 1) - w.patch.first[1];
     const int row = node[Dim - 1] + ((q >> (Dim - 1)) & 1);
-    visit(static_cast<std::size_t>(w.base[across * w.window.count[0] + column] + row) * kRecord, weight);
+    visit(static_cast<std::size_t>(w.base[across * w.patch.count[0] + column] + row) * kRecord, weight);
   }
 }
 
@@ -81,11 +81,11 @@ Vec<Dim> Springs<Dim>::traction(const Stretched& s) {
 }
 
 template <int Dim>
-void Springs<Dim>::apply(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, Fields& fields) const {
+void Springs<Dim>::apply(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, Fields& fields) const {
   for (const auto& s : springs_) {
     const Vec<Dim> on_a = s.spring.area * traction(s);
     const auto pull = [&](const auto& end, double sign) {
-      each_spring_node<Dim>(end, bodies, f, fields, [&](std::size_t node, double w) {
+      each_spring_node<Dim>(end, bodies, step, fields, [&](std::size_t node, double w) {
         for (int a = 0; a < Dim; ++a) fields.nodes[node + 1 + Dim + a] += sign * w * on_a[a];
       });
     };
@@ -95,11 +95,12 @@ void Springs<Dim>::apply(const std::vector<Particles<Dim>>& bodies, const Frame<
 }
 
 template <int Dim>
-void Springs<Dim>::stretch(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, const Fields& fields) {
+void Springs<Dim>::book(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, const Fields& fields,
+                        double& /*work*/) {
   for (auto& s : springs_) {
     const auto move = [&](const auto& end, double sign) {
-      each_spring_node<Dim>(end, bodies, f, fields, [&](std::size_t node, double w) {
-        for (int a = 0; a < Dim; ++a) s.jump[a] += sign * w * f.dt * fields.nodes[node + a];
+      each_spring_node<Dim>(end, bodies, step, fields, [&](std::size_t node, double w) {
+        for (int a = 0; a < Dim; ++a) s.jump[a] += sign * w * step.dt * fields.nodes[node + a];
       });
     };
     move(s.spring.b, 1);

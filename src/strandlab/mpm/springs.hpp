@@ -1,9 +1,10 @@
-// Springs between points of two bodies: their forces on the nodes, and their stretch by the nodes' motion.
+// Springs between points of two bodies, as forces on the nodes that stretch with the nodes' motion.
 #pragma once
 
 #include <vector>
 
 #include "strandlab/mpm/fields.hpp"
+#include "strandlab/mpm/spring.hpp"
 
 namespace strandlab::mpm {
 
@@ -12,10 +13,9 @@ class Springs {
  public:
   // As Engine::set_springs.
   void set(const std::vector<Spring<Dim>>& springs, const std::vector<Particles<Dim>>& bodies);
-  // Adds their forces to the records of nodes before the grid update.
-  void apply(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, Fields& fields) const;
-  // By the grid's displacements, to which their forces are conjugate: after the grid update.
-  void stretch(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, const Fields& fields);
+  void apply(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, Fields& fields) const;
+  // They stretch, and keep their work as energy().
+  void book(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, const Fields& fields, double& work);
   double energy() const;  // mJ, stored now
 
  private:

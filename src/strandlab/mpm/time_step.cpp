@@ -34,7 +34,7 @@ double acoustic_stiffness(const VoigtMatrix& c, const Eigen::Vector3d& n) {
 }  // namespace
 
 template <int Dim>
-StepLimit<Dim> step_limit(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f) {
+StepLimit<Dim> step_limit(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step) {
   using C = Component<Dim>;
   StepLimit<Dim> limit;
   for (const auto& body : bodies) {
@@ -48,14 +48,14 @@ StepLimit<Dim> step_limit(const std::vector<Particles<Dim>>& bodies, const Frame
         for (int k = 0; k < body.components; ++k) pressure = std::max(pressure, std::abs(d[(C::stress + k) * kBlock]));
         const double speed =
             std::sqrt((stiffness + pressure) / body.material.density) + std::abs(d[(C::v + a) * kBlock]);
-        if (f.cell[a] / speed < limit.time_s) limit = {f.cell[a] / speed, &body, d};
+        if (step.cell[a] / speed < limit.time_s) limit = {step.cell[a] / speed, &body, d};
       }
     }
   }
   return limit;
 }
 
-template StepLimit<2> step_limit(const std::vector<Particles<2>>&, const Frame<2>&);
-template StepLimit<3> step_limit(const std::vector<Particles<3>>&, const Frame<3>&);
+template StepLimit<2> step_limit(const std::vector<Particles<2>>&, const Step<2>&);
+template StepLimit<3> step_limit(const std::vector<Particles<3>>&, const Step<3>&);
 
 }  // namespace strandlab::mpm

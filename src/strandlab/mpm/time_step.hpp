@@ -16,6 +16,6 @@ struct StepLimit {
 
 // From wave speeds along the panel's axes and the particles' own speed, in a sample of the particles.
 template <int Dim>
-StepLimit<Dim> step_limit(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f);
+StepLimit<Dim> step_limit(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step);
 
 }  // namespace strandlab::mpm

@@ -8,27 +8,29 @@
 namespace strandlab::mpm {
 namespace {
 
+// The grid's own functions at a point: no width.
+Gimp<double> hat(double d) {
+  return {{std::max(-d, 0.0), 1 - std::abs(d), std::max(d, 0.0)},
+          {d < 0 ? -1.0 : 0.0, d < 0 ? 1.0 : -1.0, d < 0 ? 0.0 : 1.0}};
+}
+
 // Grid functions averaged over the face element of a point: as wide as the particle along the face, flat across it.
 // Then the nodal forces of a traction balance those of an equal stress node by node (divergence theorem), also at
 // nodes that the body hardly touches.
 template <int Dim>
 PointStencil<Dim> face_stencil(const Particles<Dim>& body, const double* d, const Vec<Dim>& offset,
-                               const Frame<Dim>& f) {
+                               const Step<Dim>& step) {
   using C = Component<Dim>;
   PointStencil<Dim> s;
   for (int a = 0; a < Dim; ++a) {
     double x = d[(C::x + a) * kBlock];
     for (int b = 0; b < Dim; ++b) x += d[(C::F + a * Dim + b) * kBlock] * offset[b];
-    const double xi = (x - f.origin[a]) * f.inverse_cell[a];
+    const double xi = (x - step.origin[a]) * step.inverse_cell[a];
     s.node[a] = static_cast<int>(std::lround(xi));
-    const double width = body.half_width(d, a, 0.5 * body.spacing - offset.cwiseAbs()) * f.inverse_cell[a];
+    const double width = body.half_width(d, a, 0.5 * body.spacing - offset.cwiseAbs()) * step.inverse_cell[a];
     double from_node = xi - s.node[a];
     if (std::abs(from_node) < 1e-9) from_node = 0;  // a face on a grid line acts on that line alone
-    if (width > 1e-3) {
-      s.axis[a] = gimp(from_node, std::min(width, 0.5));
-    } else {
-      s.axis[a].w = {std::max(-from_node, 0.0), 1 - std::abs(from_node), std::max(from_node, 0.0)};
-    }
+    s.axis[a] = width > kLeastHalfWidth ? gimp<double>(from_node, std::min(width, kMostHalfWidth)) : hat(from_node);
   }
   return s;
 }
@@ -50,7 +52,7 @@ void Tractions<Dim>::set(std::size_t body, std::size_t face, const Vec<Dim>& tra
 
 template <int Dim>
 template <class Visit>  // visit(offset of a node's record, traction, weight times area at formation)
-void Tractions<Dim>::each_node_under(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f,
+void Tractions<Dim>::each_node_under(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step,
                                      const Fields& fields, Visit visit) const {
   if (!any_) return;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -68,8 +70,8 @@ void Tractions<Dim>::each_node_under(const std::vector<Particles<Dim>>& bodies, 
         }
         const double size = area.norm();
         if (size == 0) continue;  // padding
-        const auto s = face_stencil<Dim>(body, body.data.data() + face.where[i], offset, f);
-        each_node(fields.windows[b].field, s, [&](std::size_t record, double w) {
+        const auto s = face_stencil<Dim>(body, body.data.data() + face.where[i], offset, step);
+        each_node(fields.patches[b].field, s, [&](std::size_t record, double w) {
           if (w > 0) visit(record * kRecord, t, w * size);
         });
       }
@@ -78,18 +80,18 @@ void Tractions<Dim>::each_node_under(const std::vector<Particles<Dim>>& bodies, 
 }
 
 template <int Dim>
-void Tractions<Dim>::apply(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, Fields& fields) const {
-  each_node_under(bodies, f, fields, [&](std::size_t node, const double* t, double area) {
+void Tractions<Dim>::apply(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, Fields& fields) const {
+  each_node_under(bodies, step, fields, [&](std::size_t node, const double* t, double area) {
     for (int a = 0; a < Dim; ++a) fields.nodes[node + 1 + Dim + a] += t[a] * area;
   });
 }
 
 template <int Dim>
-void Tractions<Dim>::book(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, const Fields& fields,
+void Tractions<Dim>::book(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, const Fields& fields,
                           double& work) const {
-  each_node_under(bodies, f, fields, [&](std::size_t node, const double* t, double area) {
+  each_node_under(bodies, step, fields, [&](std::size_t node, const double* t, double area) {
     if (!(fields.nodes[node + 7] > 0)) return;
-    for (int a = 0; a < Dim; ++a) work += f.dt * t[a] * area * fields.nodes[node + a];
+    for (int a = 0; a < Dim; ++a) work += step.dt * t[a] * area * fields.nodes[node + a];
   });
 }
 

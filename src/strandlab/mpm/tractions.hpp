@@ -14,14 +14,12 @@ class Tractions {
   explicit Tractions(const std::vector<Body<Dim>>& bodies);  // those of the bodies' faces
 
   void set(std::size_t body, std::size_t face, const Vec<Dim>& traction);  // MPa
-  // Adds the forces to the records of nodes before the grid update.
-  void apply(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, Fields& fields) const;
-  // Adds their work on the displacements of the step, mJ: after the grid update.
-  void book(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, const Fields& fields, double& work) const;
+  void apply(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, Fields& fields) const;
+  void book(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, const Fields& fields, double& work) const;
 
  private:
   template <class Visit>
-  void each_node_under(const std::vector<Particles<Dim>>& bodies, const Frame<Dim>& f, const Fields& fields,
+  void each_node_under(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, const Fields& fields,
                        Visit visit) const;
 
   std::vector<double> tractions_;  // MPa, Dim for each of kMaxFaces faces of each body

@@ -10,22 +10,22 @@ namespace strandlab::mpm {
 namespace {
 
 template <int Dim>
-PointStencil<Dim> stencil_at(const Particles<Dim>& body, const double* d, const Vec<Dim>& x, const Frame<Dim>& f) {
+PointStencil<Dim> stencil_at(const Particles<Dim>& body, const double* d, const Vec<Dim>& x, const Step<Dim>& step) {
   PointStencil<Dim> s;
   for (int a = 0; a < Dim; ++a) {
-    const double xi = (x[a] - f.origin[a]) * f.inverse_cell[a];
+    const double xi = (x[a] - step.origin[a]) * step.inverse_cell[a];
     s.node[a] = static_cast<int>(std::lround(xi));
-    const double r = std::clamp(body.half_width(d, a) * f.inverse_cell[a], 1e-3, 0.5);
-    s.axis[a] = gimp(xi - s.node[a], r);
+    const double r = std::clamp(body.half_width(d, a) * step.inverse_cell[a], kLeastHalfWidth, kMostHalfWidth);
+    s.axis[a] = gimp<double>(xi - s.node[a], r);
   }
   return s;
 }
 
-// Momentum of the projection to velocity, with the rollers' mirror images. `start`: the window's first record.
+// Momentum of the projection to velocity, with the rollers' mirror images. `start`: the patch's first record.
 template <int Dim>
-void fold_projected(const WindowStore& w, const Frame<Dim>& f, int start, std::vector<double>& mass_at,
+void fold_projected(const PatchStore& w, const Step<Dim>& step, int start, std::vector<double>& mass_at,
                     AlignedArray& projected) {
-  each_ghost(w, f, false, [&](int axis, int, int ghost, int mirror, int count) {
+  each_ghost(w, step, false, [&](int axis, int, int ghost, int mirror, int count) {
     for (int i = 0; i < count; ++i) {
       for (int a = 0; a < Dim; ++a) {
         const double g = projected[static_cast<std::size_t>(ghost + i) * Dim + a];
@@ -40,10 +40,10 @@ void fold_projected(const WindowStore& w, const Frame<Dim>& f, int start, std::v
       p = mass_at[r - start] > 0 ? p / mass_at[r - start] : 0;
     }
   }
-  each_wall(w, f, [&](int axis, int, int first, int count) {
+  each_wall(w, step, [&](int axis, int, int first, int count) {
     for (int r = first; r < first + count; ++r) projected[static_cast<std::size_t>(r) * Dim + axis] = 0;
   });
-  each_ghost(w, f, true, [&](int axis, int, int ghost, int mirror, int count) {
+  each_ghost(w, step, true, [&](int axis, int, int ghost, int mirror, int count) {
     for (int i = 0; i < count; ++i) {
       for (int a = 0; a < Dim; ++a) {
         const double m = projected[static_cast<std::size_t>(mirror + i) * Dim + a];
@@ -55,13 +55,13 @@ void fold_projected(const WindowStore& w, const Frame<Dim>& f, int start, std::v
 
 // Positions have moved since the step's weights were made; the new ones serve for both directions.
 template <int Dim>
-void filter_body(const WindowStore& w, const Frame<Dim>& f, const AlignedArray& nodes, AlignedArray& projected,
+void filter_body(const PatchStore& w, const Step<Dim>& step, const AlignedArray& nodes, AlignedArray& projected,
                  Particles<Dim>& body) {
   const double mass = body.mass();
   std::vector<double> mass_at(w.records, 0.0);
-  const int start = w.window.base[0] + w.lo[0];
+  const int start = w.patch.base[0] + w.lo[0];
   body.each([&](int, const Vec<Dim>& x, const double* d) {
-    const auto s = stencil_at<Dim>(body, d, x, f);
+    const auto s = stencil_at<Dim>(body, d, x, step);
     Vec<Dim> v = Vec<Dim>::Zero();
     each_node(w, s, [&](std::size_t record, double weight) {
       for (int a = 0; a < Dim; ++a) v[a] += weight * nodes[record * kRecord + a];
@@ -71,9 +71,9 @@ void filter_body(const WindowStore& w, const Frame<Dim>& f, const AlignedArray& 
       mass_at[record - static_cast<std::size_t>(start)] += weight * mass;
     });
   });
-  fold_projected(w, f, start, mass_at, projected);
+  fold_projected(w, step, start, mass_at, projected);
   body.each([&](int p, const Vec<Dim>& x, const double* d) {
-    const auto s = stencil_at<Dim>(body, d, x, f);
+    const auto s = stencil_at<Dim>(body, d, x, step);
     Vec<Dim> v = Vec<Dim>::Zero();
     each_node(w, s, [&](std::size_t record, double weight) {
       for (int a = 0; a < Dim; ++a) v[a] += weight * (2 * nodes[record * kRecord + a] - projected[record * Dim + a]);
@@ -86,15 +86,15 @@ void filter_body(const WindowStore& w, const Frame<Dim>& f, const AlignedArray& 
 }  // namespace
 
 template <int Dim>
-double VelocityFilter::apply(const Frame<Dim>& f, const Fields& fields, std::vector<Particles<Dim>>& bodies) {
+double VelocityFilter::apply(const Step<Dim>& step, const Fields& fields, std::vector<Particles<Dim>>& bodies) {
   projected_.resize(fields.nodes.size() / kRecord * Dim);
   const double before = kinetic_energy(bodies);
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    filter_body(fields.windows[b].field, f, fields.nodes, projected_, bodies[b]);
+    filter_body(fields.patches[b].field, step, fields.nodes, projected_, bodies[b]);
   return before - kinetic_energy(bodies);
 }
 
-template double VelocityFilter::apply(const Frame<2>&, const Fields&, std::vector<Particles<2>>&);
-template double VelocityFilter::apply(const Frame<3>&, const Fields&, std::vector<Particles<3>>&);
+template double VelocityFilter::apply(const Step<2>&, const Fields&, std::vector<Particles<2>>&);
+template double VelocityFilter::apply(const Step<3>&, const Fields&, std::vector<Particles<3>>&);
 
 }  // namespace strandlab::mpm

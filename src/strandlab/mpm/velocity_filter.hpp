@@ -14,7 +14,7 @@ class VelocityFilter {
  public:
   // After the particles have moved. Returns the kinetic energy it takes, mJ.
   template <int Dim>
-  double apply(const Frame<Dim>& f, const Fields& fields, std::vector<Particles<Dim>>& bodies);
+  double apply(const Step<Dim>& step, const Fields& fields, std::vector<Particles<Dim>>& bodies);
   std::size_t bytes() const { return projected_.bytes(); }
 
  private:

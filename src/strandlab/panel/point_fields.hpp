@@ -35,7 +35,7 @@ double thickness_strain(const Tensor<Dim>& F) {
   }
 }
 
-// Strand axes as columns 1 along (F a0), 2 across, 3 through the thickness, in the frame (x, y, z): of a section x is
+// Strand axes as columns 1 along (F a0), 2 across, 3 through the thickness, in the axes (x, y, z): of a section x is
 // along, y through the thickness and z out of the picture, so that 2 = 3 x 1 = -z.
 template <int Dim>
 Tensor<3> strand_axes(const Tensor<Dim>& F) {
@@ -53,7 +53,7 @@ Tensor<3> strand_axes(const Tensor<Dim>& F) {
   return axes;
 }
 
-// Cauchy stress tau/J of a point, MPa, tension positive, in the frame (x, y, z) of strand_axes().
+// Cauchy stress tau/J of a point, MPa, tension positive, in the axes (x, y, z) of strand_axes().
 template <int Dim>
 Tensor<3> cauchy_stress(const Tensor<Dim>& F, const Voigt& kirchhoff) {
   Tensor<3> tau;

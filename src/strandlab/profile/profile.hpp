@@ -28,17 +28,17 @@ Profile density_profile(const Panel<Dim>& panel, int bins);
 // Mean of a profile over the relative heights from..to (0 bottom face, 1 top face), kg/m^3.
 double mean_between(const Profile& profile, double from, double to);
 
-inline constexpr double kSkin = 0.05;     // of the thickness, on either side
-inline constexpr double kSurface = 0.25;  // of the thickness, on either side; the core is what lies between
+inline constexpr double kSkin = 0.05;     // of the thickness, below either face
+inline constexpr double kSurface = 0.25;  // of the thickness, below either face; the core is what lies between
 
 // What a profile comes down to, kg/m^3 and mm. In each half of the thickness the densest bin is a peak, its depth the
 // distance of the bin's middle from the face.
 struct Summary {
   double mean = 0;
-  double peak = 0, peak_depth_mm = 0;  // mean of both sides
+  double peak = 0, peak_depth_mm = 0;  // mean of those below both faces
   double peak_bottom = 0, peak_bottom_depth_mm = 0, peak_top = 0, peak_top_depth_mm = 0;
-  double skin = 0;     // outermost twentieth of the thickness on either side
-  double surface = 0;  // outer quarter on either side
+  double skin = 0;     // outermost twentieth of the thickness below either face
+  double surface = 0;  // outer quarter below either face
   double core = 0;     // middle half
   double surface_over_core() const { return core > 0 ? surface / core : 0; }
 };

@@ -26,8 +26,8 @@ files::CsvCell count(int value) {
 }
 
 // D_t of a compliance; none for a perfect bond.
-std::optional<double> inverse(const std::optional<double>& compliance) {
-  return compliance && *compliance != 0 ? std::optional(1 / *compliance) : std::nullopt;
+std::optional<double> inverse(const std::optional<double>& compliance_t) {
+  return compliance_t && *compliance_t != 0 ? std::optional(1 / *compliance_t) : std::nullopt;
 }
 
 bool from_records(const bondline::Analysis& analysis) {
@@ -182,10 +182,10 @@ std::string text_of(const OverlapDesign& design) {
                   100 * u.k_relative, 100 * u.E_relative, 100 * u.t_relative, u.l_mm);
   text += fmt::format("{:>14}{:>14}{:>22}{:>18}{:>22}{:>12}\n", "1/D_t mm/MPa", "overlap mm", "10 % worse at mm",
                       "error of 1/D_t %", "d ln k/d ln(1/D_t)", "k N/mm");
-  for (double compliance : design.compliances_t) {
+  for (double compliance_t : design.compliances_t) {
     const auto best =
-        bondline::best_overlap(design.geometry, compliance, u, design.shortest_mm, design.longest_mm, design.formula);
-    text += fmt::format("{:>14g}{:>14.1f}{:>22}{:>18.1f}{:>22.3f}{:>12.0f}\n", compliance, best.overlap_mm,
+        bondline::best_overlap(design.geometry, compliance_t, u, design.shortest_mm, design.longest_mm, design.formula);
+    text += fmt::format("{:>14g}{:>14.1f}{:>22}{:>18.1f}{:>22.3f}{:>12.0f}\n", compliance_t, best.overlap_mm,
                         fmt::format("{:.1f} to {:.1f}", best.shortest_mm, best.longest_mm),
                         100 * best.relative_uncertainty, best.sensitivity, best.stiffness_N_per_mm);
   }

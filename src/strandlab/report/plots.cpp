@@ -119,8 +119,8 @@ Warning plot_modulus_against_compaction(const std::vector<PanelModulus>& moduli,
   }
   Plot plot{title_of(test), "1/(1 - C)", "modulus, MPa", "1/Dₜ, mm/MPa", CurveStyle::kLinesAndPoints, 0, 1, {},
             references};
-  for (const auto& [compliance, points] : curves)
-    plot.curves.push_back(curve_of(fmt::format("{}", compliance), points));
+  for (const auto& [compliance_t, points] : curves)
+    plot.curves.push_back(curve_of(fmt::format("{}", compliance_t), points));
   fit_axis(plot, std::nullopt);
   return draw(plot, png);
 }

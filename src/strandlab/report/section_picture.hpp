@@ -29,7 +29,7 @@ struct PictureOptions {
 };
 
 // Writes a PNG: strands cell by cell with thin outlines, platens, axes in mm, colour bar with its unit. All states of a
-// run get the same frame (window length x thickness as formed), so that pictures can be flipped through. Throws
+// run get the same extent (window length x thickness as formed), so that pictures can be flipped through. Throws
 // InputError for options out of range, else as files::write_atomically().
 void draw_section(const Panel<2>& panel, const PictureOptions& options, const std::filesystem::path& png);
 

@@ -42,8 +42,8 @@ std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows, c
       case vtest::ClosedForm::kRuleOfMixtures: {
         add(kRuleOfMixtures, theory::tension_modulus_MPa(rows, m.compaction, off_axis));
         if (!bridged) break;
-        const double compliance = glue::taken(m.compliance_t_mm_per_MPa);
-        add(kShearLag, theory::shear_lag_panel_MPa(rows, {}, compliance, m.compaction, off_axis));
+        const double compliance_t = glue::taken(m.compliance_t_mm_per_MPa);
+        add(kShearLag, theory::shear_lag_panel_MPa(rows, {}, compliance_t, m.compaction, off_axis));
         break;
       }
       case vtest::ClosedForm::kLaminatedBeam:

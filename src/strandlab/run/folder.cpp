@@ -87,11 +87,11 @@ void refuse_unwritable(const fs::path& folder, double needed_bytes) {
   }
 }
 
-// Holds as long as the descriptor is open, also over a kill -9. `kind` is LOCK_EX, or LOCK_SH for what several may do
-// at once.
-int lock_folder(const fs::path& folder, int kind) {
+// Holds as long as the descriptor is open, also over a kill -9. `operation` is LOCK_EX, or LOCK_SH for what several may
+// do at once.
+int lock_folder(const fs::path& folder, int operation) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor >= 0 && ::flock(descriptor, kind | LOCK_NB) == 0) return descriptor;
+  if (descriptor >= 0 && ::flock(descriptor, operation | LOCK_NB) == 0) return descriptor;
   const int reason = errno;
   if (descriptor >= 0) ::close(descriptor);
   if (reason == EWOULDBLOCK)

@@ -20,7 +20,7 @@ Progress progress_of(const press::Progress& p) {
 mpm::Options engine_options(const cases::Case& c) {
   auto options = c.mpm;
   options.threads = cases::thread_count(c);
-  options.profile = true;
+  options.timed = true;
   return options;
 }
 

@@ -58,7 +58,7 @@ Json to_json(const Weight& weight) {
 }
 
 // Nanoseconds of one thread per particle-step, by phase.
-Json phases(const mpm::Timing& t, double particle_steps) {
+Json to_json(const mpm::Phases& t, double particle_steps) {
   const auto ns = [particle_steps](double seconds) { return particle_steps > 0 ? 1e9 * seconds / particle_steps : 0; };
   return {{"weights", ns(t.weights)}, {"surface", ns(t.surface)}, {"scatter", ns(t.scatter)},  {"grid", ns(t.grid)},
           {"contact", ns(t.contact)}, {"gather", ns(t.gather)},   {"material", ns(t.material)}};
@@ -158,7 +158,7 @@ Json summary(const press::Outcome<2>& outcome, int threads) {
           {"wall_s", outcome.wall_s},
           {"particle_steps_per_s", outcome.particle_steps_per_s},
           {"ns_per_particle_step", outcome.particle_steps_per_s > 0 ? 1e9 / outcome.particle_steps_per_s : 0},
-          {"ns_per_particle_step_by_phase", phases(outcome.timing, particle_steps)},
+          {"ns_per_particle_step_by_phase", to_json(outcome.timing.phases, particle_steps)},
           {"fields_per_node", outcome.timing.fields_per_node},
           {"plastic_fraction", outcome.timing.plastic_fraction},
           {"engine_bytes", outcome.bytes},

@@ -20,15 +20,15 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 // cannot be tested with half or twice the gap, say because half the gap connects nothing.
 std::optional<GapSensitivity> gap_sensitivity(const Panel<2>& panel, vtest::Options options, double compaction,
                                               Observer& observer) {
-  auto& compliances = options.compliance_t_mm_per_MPa;
-  compliances = {*std::max_element(compliances.begin(), compliances.end())};
+  auto& compliances_t = options.compliance_t_mm_per_MPa;
+  compliances_t = {*std::max_element(compliances_t.begin(), compliances_t.end())};
   const double gap = options.curing.max_gap_mm;
   try {
     const auto change = vtest::gap_sensitivity(panel, options, [&observer] { stop_if_cancelled(observer); });
     observer.say(fmt::format(
         "test: compaction {}: glue.max_gap_mm = {} changes moduli by at most {:+.1f} % (1/D_t = {}), {} by {:+.1f} %",
-        compaction, gap / 2, 100 * change.halved, compliances[0], gap * 2, 100 * change.doubled));
-    return GapSensitivity{compliances[0], change};
+        compaction, gap / 2, 100 * change.halved, compliances_t[0], gap * 2, 100 * change.doubled));
+    return GapSensitivity{compliances_t[0], change};
   } catch (const statics::OutOfMemory&) {
     throw;
   } catch (const std::runtime_error& error) {  // InputError or RunError

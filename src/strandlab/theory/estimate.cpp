@@ -52,18 +52,18 @@ std::vector<Row> varied_rows(const Question& q, const StrandSize& size) {
 }
 
 void at_compaction(const Question& q, const std::vector<Row>& rows, Estimate at, std::vector<Estimate>& out) {
-  const auto add = [&](const char* model, double modulus, std::optional<double> compliance = std::nullopt) {
+  const auto add = [&](const char* model, double modulus, std::optional<double> compliance_t = std::nullopt) {
     at.model = model;
     at.modulus_MPa = modulus;
-    at.compliance_t = compliance;
+    at.compliance_t = compliance_t;
     out.push_back(at);
   };
   at.density_kg_m3 = density_kg_m3(rows, at.compaction);
   add("tension", tension_modulus_MPa(rows, at.compaction, q.off_axis));
   add("bending", bending_modulus_MPa(rows, at.compaction, q.off_axis));
   if (first_along(rows))
-    for (double compliance : q.compliances_t)
-      add("shear_lag", shear_lag_panel_MPa(rows, q.matrix, compliance, at.compaction, q.off_axis), compliance);
+    for (double compliance_t : q.compliances_t)
+      add("shear_lag", shear_lag_panel_MPa(rows, q.matrix, compliance_t, at.compaction, q.off_axis), compliance_t);
   const auto core = std::find_if_not(rows.begin(), rows.end(), runs_along);
   if (core == rows.end()) return;
   const auto with_core = [&](double modulus) {

@@ -169,26 +169,26 @@ double random_core_modulus_MPa(const std::vector<Row>& rows, double core_modulus
   return tension_of_moduli_MPa(moduli, compaction, thicknesses(rows));
 }
 
-double strand_efficiency(const ShearLag& s, double compliance) {
+double strand_efficiency(const ShearLag& s, double compliance_t) {
   const double V_m = 1 - s.V_w;
   if (!(V_m > 0)) return 1;
   if (!(s.V_w > 0)) return 0;
   const double stiffness = 1 / (s.E_m_MPa * V_m) + 1 / (s.E_w_MPa * s.V_w);
-  const double shear = s.V_w / (3 * s.G_w_MPa) + V_m / (3 * s.G_m_MPa) + compliance / s.spacing_mm;
+  const double shear = s.V_w / (3 * s.G_w_MPa) + V_m / (3 * s.G_m_MPa) + compliance_t / s.spacing_mm;
   if (!(shear > 0))
     throw InputError(
         fmt::format("glue compliance 1/D_t = {:g} mm/MPa takes away more than the shear compliance of strands "
                     "and matrix; it must be above {:g}",
-                    compliance, compliance - shear * s.spacing_mm));
+                    compliance_t, compliance_t - shear * s.spacing_mm));
   const double gamma = std::sqrt(stiffness / shear) * s.length_mm / (2 * s.spacing_mm);
   return gamma > 1e-4 ? 1 - std::tanh(gamma) / gamma : square(gamma) / 3;
 }
 
-double shear_lag_modulus_MPa(const ShearLag& s, double compliance) {
-  return strand_efficiency(s, compliance) * s.E_w_MPa * s.V_w + s.E_m_MPa * (1 - s.V_w);
+double shear_lag_modulus_MPa(const ShearLag& s, double compliance_t) {
+  return strand_efficiency(s, compliance_t) * s.E_w_MPa * s.V_w + s.E_m_MPa * (1 - s.V_w);
 }
 
-double shear_lag_panel_MPa(const std::vector<Row>& rows, const Matrix& matrix, double compliance, double compaction,
+double shear_lag_panel_MPa(const std::vector<Row>& rows, const Matrix& matrix, double compliance_t, double compaction,
                            OffAxis off_axis) {
   std::vector<double> moduli = row_moduli(rows, off_axis);
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -198,7 +198,7 @@ double shear_lag_panel_MPa(const std::vector<Row>& rows, const Matrix& matrix, d
     moduli[i] =
         shear_lag_modulus_MPa({strand_modulus_MPa(row, off_axis), G_RL, solid_fraction(row.statistics),
                                matrix.modulus_MPa, matrix.shear_MPa, row.statistics.length_mm, row.thickness_mm},
-                              compliance);
+                              compliance_t);
   }
   return tension_of_moduli_MPa(moduli, compaction, thicknesses(rows));
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/members.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/unwritable.hpp"
 
@@ -122,14 +123,7 @@ class Bits {
     }
   }
   void add(const mpm::EngineState& s) {
-    add(s.step);
-    add(s.unconverged_contacts);
-    const auto& e = s.energies;
-    for (const double value :
-         {s.time_s, s.time_step_s, s.bottom.position, s.bottom.velocity, s.top.position, s.top.velocity, e.kinetic,
-          e.elastic, e.plastic, e.friction, e.contact, e.filter, e.platen_work, e.external_work}) {
-      add(value);
-    }
+    for_each_member(s, [this](auto number) { add(number); });
   }
   template <int Dim>
   void add(const Strand<Dim>& s) {

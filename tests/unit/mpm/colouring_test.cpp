@@ -29,8 +29,8 @@ Body<Dim> long_strand() {
 }
 
 template <int Dim>
-Frame<Dim> frame() {
-  Frame<Dim> f{};
+Step<Dim> first_step() {
+  Step<Dim> f{};
   for (int a = 0; a < Dim; ++a) {
     f.cell[a] = kCell;
     f.inverse_cell[a] = 1 / kCell;
@@ -47,7 +47,7 @@ std::string verdict(const Recolour& recolour) {
   bodies.push_back(store_particles(long_strand<Dim>(), 0, tiles));
   for (std::size_t t = 0; t < tiles.size(); ++t) recolour(t, tiles[t].colour);
   try {
-    check_colouring(sort_by_colour(tiles), bodies, frame<Dim>(), EngineState{});
+    check_colouring(sort_by_colour(tiles), bodies, first_step<Dim>(), EngineState{});
   } catch (const RunError& error) {
     return error.what();
   }

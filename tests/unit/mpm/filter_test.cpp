@@ -7,7 +7,7 @@
 #include <random>
 
 #include "strandlab/mpm/engine.hpp"
-#include "strandlab/mpm/shape_functions.hpp"
+#include "strandlab/mpm/gimp.hpp"
 #include "support/near.hpp"
 #include "support/strands.hpp"
 
@@ -39,11 +39,11 @@ Eigen::MatrixXd weights(const Body<Dim>& body) {
   std::vector<std::tuple<Eigen::Index, Eigen::Index, double>> entries;
   for (std::size_t p = 0; p < body.points.x.size(); ++p) {
     std::array<int, Dim> node;
-    std::array<Gimp3, Dim> axis;
+    std::array<Gimp<double>, Dim> axis;
     for (int a = 0; a < Dim; ++a) {
       const double xi = body.points.x[p][a] / kFilterCell;
       node[a] = static_cast<int>(std::lround(xi));
-      axis[a] = gimp(xi - node[a], 0.25);
+      axis[a] = gimp<double>(xi - node[a], 0.25);
     }
     for (int q = 0; q < (Dim == 2 ? 9 : 27); ++q) {
       std::array<int, Dim> at = node;
@@ -51,7 +51,7 @@ Eigen::MatrixXd weights(const Body<Dim>& body) {
       int rest = q;
       for (int a = 0; a < Dim; ++a) {
         at[a] += rest % 3 - 1;
-        w *= axis[a].w[static_cast<std::size_t>(rest % 3)];
+        w *= axis[a].weight[rest % 3];
         rest /= 3;
       }
       if (w == 0) continue;

@@ -89,6 +89,62 @@ TEST(Gravity, WorksWeightTimesHeight3D) {
   expect_work_of_gravity<3>();
 }
 
+// A block that pokes a tenth of a cell behind a roller is pulled away from it: away from the plane, which stays, all of
+// it falls with g, to which the image behind the roller adds mass and weight alike.
+template <int Dim>
+void expect_fall_from_roller() {
+  Grid<Dim> grid = open_grid<Dim>();
+  grid.origin[0] = grid.lo[0] = 0;
+  grid.sides[0][0] = Side::kRoller;
+  Vec<Dim> corner = Vec<Dim>::Constant(1), g = Vec<Dim>::Zero();
+  corner[0] = -0.1 * kLoadCell;
+  g[0] = 1e7;  // mm/s^2
+  std::vector<Body<Dim>> bodies{block_at<Dim>(corner)};
+  Engine<Dim> engine(bodies, grid, {});
+  engine.set_gravity(g);
+  const double dt = engine.state().time_step_s;
+  engine.step();
+  engine.write(bodies);
+  int away = 0;
+  for (std::size_t p = 0; p < bodies[0].points.x.size(); ++p) {
+    if (bodies[0].points.x[p][0] < 1.5 * kLoadCell) continue;  // nearer ones see nodes of the plane
+    EXPECT_THAT(bodies[0].points.v[p], VecNear(Vec<Dim>(dt * g), 1e-12 * dt * g.norm()));
+    ++away;
+  }
+  EXPECT_GT(away, 0);
+}
+
+TEST(Gravity, PullsAwayFromARoller2D) {
+  expect_fall_from_roller<2>();
+}
+TEST(Gravity, PullsAwayFromARoller3D) {
+  expect_fall_from_roller<3>();
+}
+
+// A block that lies on the platen rests on it from the first step on: the nodes that its lower face reaches, those of
+// its lowest quarter and more, do not begin to fall. Were its image to fall with it, nothing would press.
+template <int Dim>
+void expect_carried_by_platen() {
+  Vec<Dim> corner = Vec<Dim>::Constant(1), g = Vec<Dim>::Zero();
+  corner[Dim - 1] = 0;
+  g[Dim - 1] = -1e7;  // mm/s^2
+  const std::vector<Body<Dim>> bodies{block_at<Dim>(corner)};
+  Engine<Dim> engine(bodies, open_grid<Dim>(), {});
+  engine.set_platens({0, 0}, {12, 0});
+  engine.set_gravity(g);
+  engine.step();
+  const double weight = mass_of(bodies[0]) * g.norm();
+  EXPECT_GT(engine.bottom_force(), 0.2 * weight);
+  EXPECT_LT(engine.bottom_force(), weight);
+}
+
+TEST(Gravity, IsCarriedByThePlaten2D) {
+  expect_carried_by_platen<2>();
+}
+TEST(Gravity, IsCarriedByThePlaten3D) {
+  expect_carried_by_platen<3>();
+}
+
 // A block under uniform stress is at rest under the tractions sigma n on all its faces: the forces cancel at every node
 // of the grid (divergence theorem), wherever the faces lie.
 template <int Dim>

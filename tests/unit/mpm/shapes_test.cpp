@@ -4,7 +4,7 @@
 #include <random>
 
 #include "strandlab/mpm/engine.hpp"
-#include "strandlab/mpm/shape_functions.hpp"
+#include "strandlab/mpm/gimp.hpp"
 #include "support/near.hpp"
 
 namespace strandlab::mpm {
@@ -25,11 +25,11 @@ template <int Dim>
 void expect_complete() {
   Draw draw;
   for (int trial = 0; trial < 2000; ++trial) {
-    std::array<Gimp3, Dim> axis;
+    std::array<Gimp<double>, Dim> axis;
     Vec<Dim> cell, particle;
     for (int a = 0; a < Dim; ++a) {
       const double d = draw.offset();
-      axis[a] = gimp(d, draw.half_width());
+      axis[a] = gimp<double>(d, draw.half_width());
       cell[a] = 0.1 + 0.3 * a;
       particle[a] = d * cell[a];
     }
@@ -41,9 +41,9 @@ void expect_complete() {
       double w = 1;
       Vec<Dim> g = Vec<Dim>::Ones(), x;
       for (int a = 0; a < Dim; ++a) {
-        w *= axis[a].w[node[a]];
+        w *= axis[a].weight[node[a]];
         x[a] = (node[a] - 1) * cell[a];
-        for (int b = 0; b < Dim; ++b) g[b] *= a == b ? axis[a].g[node[a]] / cell[a] : axis[a].w[node[a]];
+        for (int b = 0; b < Dim; ++b) g[b] *= a == b ? axis[a].gradient[node[a]] / cell[a] : axis[a].weight[node[a]];
       }
       unity += w;
       gradient_sum += g;
@@ -71,7 +71,7 @@ TEST(GimpShapeFunctions, AreMeansOfTheHatFunction) {
   Draw draw;
   for (int trial = 0; trial < 200; ++trial) {
     const double d = draw.offset(), r = draw.half_width();
-    const Gimp3 s = gimp(d, r);
+    const auto s = gimp<double>(d, r);
     constexpr int kPoints = 20000;
     for (int node = -1; node <= 1; ++node) {
       double mean = 0, slope = 0;
@@ -81,9 +81,9 @@ TEST(GimpShapeFunctions, AreMeansOfTheHatFunction) {
         mean += 1 - std::abs(distance);
         slope += distance < 0 ? 1 : -1;
       }
-      EXPECT_NEAR(s.w[node + 1], mean / kPoints, 1e-7);
-      EXPECT_NEAR(s.g[node + 1], slope / kPoints, 1.5 / kPoints);
-      EXPECT_GE(s.w[node + 1], 0);
+      EXPECT_NEAR(s.weight[node + 1], mean / kPoints, 1e-7);
+      EXPECT_NEAR(s.gradient[node + 1], slope / kPoints, 1.5 / kPoints);
+      EXPECT_GE(s.weight[node + 1], 0);
     }
   }
 }

@@ -34,6 +34,41 @@ struct Meeting {  // a velocity field at a node where several meet
   int partners;
 };
 
+// What body a gives to body b at a node, N s (per mm of depth in 2D). T: one pair or a pack of them.
+template <int Dim, class T>
+struct Impulse {
+  T normal;      // along n, compression positive
+  T shear[Dim];  // in the plane of contact
+};
+
+// The normal part, `before` so far, with which the velocity `vn` at which b leaves a becomes `target`: it pushes or is
+// zero. `reduced` is the mass that a pair moves against each other.
+template <class T>
+STRANDLAB_INLINE T pushing(const T& before, const T& vn, const T& target, const T& reduced) {
+  return larger(before + reduced * (target - vn), T{});
+}
+
+// Gives an impulse its new normal part, and the shear that stops the relative velocity `rel` of b across n, within
+// Coulomb friction. Returns in `change` what b receives on top of the impulse so far.
+template <int Dim, class T>
+STRANDLAB_INLINE void correct(const T& normal, const T (&rel)[Dim], const T& vn, const T (&n)[Dim], const T& reduced,
+                              double friction, Impulse<Dim, T>& impulse, T (&change)[Dim]) {
+  const T zero{};
+  T shear[Dim], size2{};
+  for (int d = 0; d < Dim; ++d) {
+    shear[d] = impulse.shear[d] - reduced * (rel[d] - vn * n[d]);
+    size2 += shear[d] * shear[d];
+  }
+  const T limit = friction * normal;
+  const T scale = select(size2 > limit * limit, limit / square_root(larger(size2, zero + 1e-300)), zero + 1.0);
+  for (int d = 0; d < Dim; ++d) {
+    shear[d] *= scale;
+    change[d] = (normal - impulse.normal) * n[d] + shear[d] - impulse.shear[d];
+    impulse.shear[d] = shear[d];
+  }
+  impulse.normal = normal;
+}
+
 template <int Dim>
 struct Pair {
   int a, b;
@@ -41,9 +76,8 @@ struct Pair {
   double gap;     // between the faces, negative where they overlap
   double target;  // separation velocity that just keeps the faces from crossing
   double friction;
-  double normal;  // impulse so far, compression positive
-  double shear[Dim];
-  double reduced;  // mass
+  Impulse<Dim, double> impulse;  // so far
+  double reduced;                // mass
 };
 
 template <int Dim>
@@ -94,12 +128,12 @@ inline constexpr double kPlatenReturn = 0.05;
 inline constexpr double kDeepestReturn = 0.1;
 
 template <int Dim>
-STRANDLAB_INLINE void finish_pair(const Frame<Dim>& frame, bool on_platen, Pair<Dim>& pair) {
+STRANDLAB_INLINE void finish_pair(const Step<Dim>& step, bool on_platen, Pair<Dim>& pair) {
   const double inverse = 1 / __builtin_sqrt(dot<Dim>(pair.n, pair.n));
   for (int d = 0; d < Dim; ++d) pair.n[d] *= inverse;
-  const double deepest = kDeepestReturn * frame.cell[Dim - 1];
+  const double deepest = kDeepestReturn * step.cell[Dim - 1];
   const double overlap = -pair.gap < deepest ? -pair.gap : deepest;
-  pair.target = pair.gap > 0 ? -pair.gap / frame.dt : on_platen ? kPlatenReturn * overlap / frame.transit : 0.0;
+  pair.target = pair.gap > 0 ? -pair.gap / step.dt : on_platen ? kPlatenReturn * overlap / step.transit : 0.0;
 }
 
 // One pass over the pairs at a node, all from the same velocities: impulses so far are corrected towards
@@ -112,26 +146,15 @@ STRANDLAB_INLINE double contact_pass(Meeting<Dim>* m, int fields, Pair<Dim>* pai
   for (int p = 0; p < count; ++p) {
     Pair<Dim>& pair = pairs[p];
     const Meeting<Dim>&a = m[pair.a], &b = m[pair.b];
-    double rel[Dim];
+    double rel[Dim], impulse[Dim];
     for (int d = 0; d < Dim; ++d) rel[d] = b.v[d] - a.v[d];
     const double vn = dot<Dim>(rel, pair.n);
-    double normal = pair.normal + pair.reduced * (pair.target - vn);
-    normal = normal > 0 ? normal : 0;
-    double shear[Dim], size2 = 0;
+    const double normal = pushing(pair.impulse.normal, vn, pair.target, pair.reduced);
+    correct<Dim>(normal, rel, vn, pair.n, pair.reduced, pair.friction, pair.impulse, impulse);
     for (int d = 0; d < Dim; ++d) {
-      shear[d] = pair.shear[d] - pair.reduced * (rel[d] - vn * pair.n[d]);
-      size2 += shear[d] * shear[d];
+      change[pair.a][d] -= impulse[d] * a.inverse_mass;
+      change[pair.b][d] += impulse[d] * b.inverse_mass;
     }
-    const double limit = pair.friction * normal;
-    const double scale = size2 > limit * limit ? limit / __builtin_sqrt(size2) : 1;
-    for (int d = 0; d < Dim; ++d) {
-      shear[d] *= scale;
-      const double dJ = (normal - pair.normal) * pair.n[d] + shear[d] - pair.shear[d];
-      change[pair.a][d] -= dJ * a.inverse_mass;
-      change[pair.b][d] += dJ * b.inverse_mass;
-      pair.shear[d] = shear[d];
-    }
-    pair.normal = normal;
   }
   double largest = 0;
   for (int i = 0; i < fields; ++i) {
@@ -154,8 +177,8 @@ inline constexpr double kContactUnsettled = 1e-2;
 // The impulses of all pairs at a node, then the velocities of its first `real` fields (images follow them) and the
 // energies lost.
 template <int Dim>
-STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* pairs, int count,
-                              const Frame<Dim>& frame, PencilResult& result) {
+STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* pairs, int count, const Step<Dim>& step,
+                              PencilResult& result) {
   for (int i = 0; i < fields; ++i) {
     m[i].inverse_mass = 1 / m[i].record[7];
     m[i].partners = 0;
@@ -167,11 +190,10 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
     }
   }
   for (int p = 0; p < count; ++p) {
-    finish_pair<Dim>(frame, pairs[p].b >= real, pairs[p]);
+    finish_pair<Dim>(step, pairs[p].b >= real, pairs[p]);
     ++m[pairs[p].a].partners;
     ++m[pairs[p].b].partners;
-    pairs[p].normal = 0;
-    for (int d = 0; d < Dim; ++d) pairs[p].shear[d] = 0;
+    pairs[p].impulse = {};
   }
   for (int p = 0; p < count; ++p) {
     const Meeting<Dim>&a = m[pairs[p].a], &b = m[pairs[p].b];
@@ -193,14 +215,14 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
     const int k = pair.n[Dim - 1] > 0;
     double mean[Dim];
     for (int d = 0; d < Dim; ++d) {
-      const double other = !on_platen ? 0.5 * (b.v[d] + b.start[d]) : d == Dim - 1 ? frame.platen[k].velocity : 0.0;
+      const double other = !on_platen ? 0.5 * (b.v[d] + b.start[d]) : d == Dim - 1 ? step.platen[k].velocity : 0.0;
       mean[d] = other - 0.5 * (a.v[d] + a.start[d]);
     }
-    result.contact -= pair.normal * dot<Dim>(mean, pair.n);
-    result.friction -= dot<Dim>(pair.shear, mean);
+    result.contact -= pair.impulse.normal * dot<Dim>(mean, pair.n);
+    result.friction -= dot<Dim>(pair.impulse.shear, mean);
     if (on_platen) {
-      result.platen_impulse[k] += pair.normal;
-      result.platen_work -= pair.normal * pair.n[Dim - 1] * frame.platen[k].velocity;
+      result.platen_impulse[k] += pair.impulse.normal;
+      result.platen_work -= pair.impulse.normal * pair.n[Dim - 1] * step.platen[k].velocity;
     }
   }
   for (int i = 0; i < real; ++i) {
@@ -209,7 +231,6 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
       const double change = m[i].v[d] - m[i].trial[d], free = m[i].record[Dim + d];
       result.kinetic_change += half_mass * change * (2 * free + change);  // momentum_balance booked dv = free
       result.force_change += half_mass * change * free;
-      result.external_work += 2 * half_mass * frame.dt * frame.gravity[d] * change;
       m[i].record[d] = m[i].v[d];
       m[i].record[Dim + d] = free + change;
     }
@@ -229,7 +250,7 @@ STRANDLAB_INLINE bool has_mirror(const PencilField& field, int k, int row, const
 // the wall. Of the faces that look at the wall the one furthest from it counts: where two of them meet, at a strand's
 // end, the body lies behind both, and the plane of one reaches beyond the body.
 template <int Dim>
-STRANDLAB_INLINE bool platen_pair(const Meeting<Dim>& field, const Frame<Dim>& frame, int k, double node_height,
+STRANDLAB_INLINE bool platen_pair(const Meeting<Dim>& field, const Step<Dim>& step, int k, double node_height,
                                   double reach, Pair<Dim>& pair) {
   const double direction = k == 0 ? -1 : 1;  // from the field to the platen
   pair.gap = -1e300;
@@ -238,7 +259,7 @@ STRANDLAB_INLINE bool platen_pair(const Meeting<Dim>& field, const Frame<Dim>& f
     const double along = face.N[Dim - 1] * direction;
     if (along < 0 || along * along < 0.25 * face.size2) continue;
     const double to_wall =
-        (frame.platen[k].position - node_height) * direction - face.distance_W * along / (face.W * face.W);
+        (step.platen[k].position - node_height) * direction - face.distance_W * along / (face.W * face.W);
     pair.gap = 2 * to_wall > pair.gap ? 2 * to_wall : pair.gap;
   }
   if (pair.gap < -1e299 || pair.gap > reach) return false;

@@ -27,10 +27,10 @@ STRANDLAB_INLINE void add(double* a, double* b, const Pair<Dim>& pair, Encounter
 
 // contact_pass and resolve for one pair at each node, where one pass is exact.
 template <int Dim>
-STRANDLAB_INLINE void resolve(Encounters<Dim>& e, const Frame<Dim>& frame, double friction, PencilResult& result) {
+STRANDLAB_INLINE void resolve(Encounters<Dim>& e, const Step<Dim>& step, double friction, PencilResult& result) {
   if (e.count == 0) return;
   const Pack zero{};
-  Pack a[8], b[8], n[Dim], rel[Dim], shear[Dim];
+  Pack a[8], b[8], n[Dim], rel[Dim];
   Mask real;
   for (int l = 0; l < kBlock; ++l) {
     const int k = l < e.count ? l : 0;
@@ -51,33 +51,26 @@ STRANDLAB_INLINE void resolve(Encounters<Dim>& e, const Frame<Dim>& frame, doubl
     rel[d] = b[d] - a[d];
     vn += rel[d] * n[d];
   }
-  const Pack target = select(real, -larger(load(e.gap), zero) / frame.dt, zero);
+  const Pack target = select(real, -larger(load(e.gap), zero) / step.dt, zero);
   const Pack reduced = a[7] * b[7] / (a[7] + b[7]);
-  const Pack normal = select(real, larger(reduced * (target - vn), zero), zero);
+  const Pack normal = pushing(zero, vn, target, reduced);  // 0 where the lane is not real: there n is 0
   if (!any(normal > 0.0)) {
     e.count = 0;
     return;
   }
-  size2 = zero;
+  Impulse<Dim, Pack> impulse{};
+  Pack received[Dim];
+  correct<Dim>(normal, rel, vn, n, reduced, friction, impulse, received);
+  Pack contact{}, rubbed{}, kinetic{}, forces{};
   for (int d = 0; d < Dim; ++d) {
-    shear[d] = -reduced * (rel[d] - vn * n[d]);
-    size2 += shear[d] * shear[d];
-  }
-  const Pack limit = friction * normal;
-  const Pack scale = select(size2 > limit * limit, limit / square_root(larger(size2, splat(1e-300))), splat(1.0));
-  Pack contact{}, rubbed{}, kinetic{}, forces{}, gravity{};
-  for (int d = 0; d < Dim; ++d) {
-    shear[d] *= scale;
-    const Pack impulse = normal * n[d] + shear[d];
-    const Pack change_a = -impulse / a[7], change_b = impulse / b[7];
+    const Pack change_a = -received[d] / a[7], change_b = received[d] / b[7];
     const Pack free_a = a[Dim + d], free_b = b[Dim + d];
     // Work on the mean relative velocity of the step: what the pair lost.
     const Pack mean = rel[d] + 0.5 * (change_b - free_b - change_a + free_a);
-    contact += normal * n[d] * mean;
-    rubbed += shear[d] * mean;
+    contact += impulse.normal * n[d] * mean;
+    rubbed += impulse.shear[d] * mean;
     kinetic += a[7] * change_a * (2.0 * free_a + change_a) + b[7] * change_b * (2.0 * free_b + change_b);
     forces += a[7] * change_a * free_a + b[7] * change_b * free_b;
-    gravity += frame.gravity[d] * (a[7] * change_a + b[7] * change_b);
     a[d] += change_a;
     b[d] += change_b;
     a[Dim + d] += change_a;
@@ -87,7 +80,6 @@ STRANDLAB_INLINE void resolve(Encounters<Dim>& e, const Frame<Dim>& frame, doubl
   result.friction -= sum(rubbed);
   result.kinetic_change += 0.5 * sum(select(real, kinetic, zero));
   result.force_change += 0.5 * sum(select(real, forces, zero));
-  result.external_work += frame.dt * sum(select(real, gravity, zero));
   transpose(a);
   transpose(b);
   for (int l = 0; l < e.count; ++l) {

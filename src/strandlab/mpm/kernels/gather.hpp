@@ -2,9 +2,9 @@
 #pragma once
 
 #include "strandlab/mpm/kernels.hpp"
-#include "strandlab/mpm/kernels/lap.hpp"
 #include "strandlab/mpm/kernels/pack.hpp"
 #include "strandlab/mpm/kernels/stencil.hpp"
+#include "strandlab/mpm/kernels/stopwatch.hpp"
 #include "strandlab/mpm/kernels/strand_axes.hpp"
 #include "strandlab/mpm/kernels/stress.hpp"
 
@@ -18,12 +18,12 @@ struct Motion {
   Pack L[Dim * Dim];  // dv_i/dx_j, row-major
 };
 
-STRANDLAB_INLINE void gather_motion(const Stencil<2>& s, const Window& window, const double* nodes, int lanes,
+STRANDLAB_INLINE void gather_motion(const Stencil<2>& s, const Patch& patch, const double* nodes, int lanes,
                                     Motion<2>& m) {
   Pack row[8] = {};
   for (int l = 0; l < lanes; ++l) {
     int record[3];
-    pencil_records<2>(window, s, l, record);
+    pencil_records<2>(patch, s, l, record);
     Quad value{}, dx{}, dy{};
     for (int q = 0; q < 3; ++q) {
       const double* node = nodes + kRecord * static_cast<long>(record[q]);
@@ -50,12 +50,12 @@ STRANDLAB_INLINE void gather_motion(const Stencil<2>& s, const Window& window, c
   for (int k = 0; k < 4; ++k) m.L[k] = row[4 + k];
 }
 
-STRANDLAB_INLINE void gather_motion(const Stencil<3>& s, const Window& window, const double* nodes, int lanes,
+STRANDLAB_INLINE void gather_motion(const Stencil<3>& s, const Patch& patch, const double* nodes, int lanes,
                                     Motion<3>& m) {
   Pack value[8] = {}, gx[8] = {}, gy[8] = {}, gz[8] = {};
   for (int l = 0; l < lanes; ++l) {
     int record[9];
-    pencil_records<3>(window, s, l, record);
+    pencil_records<3>(patch, s, l, record);
     for (int q = 0; q < 9; ++q) {
       const double* node = nodes + kRecord * static_cast<long>(record[q]);
       Pack t{}, u{};
@@ -121,10 +121,10 @@ STRANDLAB_INLINE Pack determinant(const Pack (&F)[9]) {
 }
 
 template <int Dim>
-void gather(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame, const double* nodes,
-            const unsigned char* lanes, bool profile, TileResult& result) {
+void gather(const Tile& tile, const BodyView<Dim>& body, const Step<Dim>& step, const double* nodes,
+            const unsigned char* lanes, bool timed, TileResult& result) {
   using C = Component<Dim>;
-  Lap lap(profile);
+  Stopwatch watch(timed);
   const long stride = static_cast<long>(C::count(body.components)) * kBlock;
   Pack plastic{}, kinetic{}, stress_change{}, drift[Dim] = {};
   for (int b = tile.block_begin; b < tile.block_end; ++b) {
@@ -134,24 +134,24 @@ void gather(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame
     load_packs(block, x);
     load_packs(block + C::F * kBlock, F);
     Stencil<Dim> s;
-    stencil_at<Dim>(x, F, body.half_size, frame, s);
-    lap(result.ticks[0]);
+    stencil_at<Dim>(x, F, body.half_size, step, s);
+    watch(result.ticks.weights);
     Motion<Dim> motion;
-    gather_motion(s, body.window, nodes, lanes[b], motion);
+    gather_motion(s, body.patch, nodes, lanes[b], motion);
     Mask real;
     for (int l = 0; l < kBlock; ++l) real[l] = l < lanes[b] ? -1 : 0;
     Pack change{}, moved[Dim];
     for (int a = 0; a < Dim; ++a) {
-      const Pack dx = frame.dt * motion.v[a];
+      const Pack dx = step.dt * motion.v[a];
       store(block + a * kBlock, x[a] + dx);
       store(block + (C::v + a) * kBlock, load(block + (C::v + a) * kBlock) + motion.dv[a]);
       change += motion.dv[a] * motion.dv[a];
       moved[a] = absolute(dx);
     }
     kinetic += select(real, change, Pack{});
-    lap(result.ticks[4]);
+    watch(result.ticks.gather);
     Pack A[Dim * Dim], middle[Dim * Dim];
-    for (int k = 0; k < Dim * Dim; ++k) A[k] = frame.dt * motion.L[k];
+    for (int k = 0; k < Dim * Dim; ++k) A[k] = step.dt * motion.L[k];
     advance_F<Dim>(A, F, middle);
     for (int k = 0; k < Dim * Dim; ++k) store(block + (C::F + k) * kBlock, F[k]);
     for (int a = 0; a < Dim; ++a) {  // 2 (F - middle) is the change of F
@@ -167,13 +167,13 @@ void gather(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame
     plastic += select(real, dissipation, Pack{});
     stress_change += select(real, change_here, Pack{});
     if (any(~ok) && result.bad == 0) result.bad = b + 1;
-    lap(result.ticks[3]);
+    watch(result.ticks.material);
   }
   result.plastic += body.volume * sum(plastic);
   result.stress_change += 0.5 * body.volume * sum(stress_change);
   result.kinetic_change += 0.5 * body.mass * sum(kinetic);
   for (int a = 0; a < Dim; ++a) {
-    const double d = largest(drift[a]) * frame.inverse_cell[a];
+    const double d = largest(drift[a]) * step.inverse_cell[a];
     result.drift[a] = d > result.drift[a] ? d : result.drift[a];
   }
 }

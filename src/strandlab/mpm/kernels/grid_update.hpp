@@ -4,8 +4,8 @@
 #include "strandlab/mpm/kernels.hpp"
 #include "strandlab/mpm/kernels/contact.hpp"
 #include "strandlab/mpm/kernels/encounters.hpp"
-#include "strandlab/mpm/kernels/lap.hpp"
 #include "strandlab/mpm/kernels/pack.hpp"
+#include "strandlab/mpm/kernels/stopwatch.hpp"
 
 namespace strandlab::mpm::STRANDLAB_ISA {
 namespace {
@@ -28,39 +28,30 @@ STRANDLAB_INLINE Pack second_vector(const Pack& r) {
     return __builtin_shufflevector(r, zero, 3, 4, 5, 8, 8, 8, 8, 8);
 }
 
-// What a record is multiplied with and what is added to it: {v, dv} = scale {p, f}/m + gravity.
-struct NodeUpdate {
-  Pack scale, gravity;
-};
-// On a roller plane the normal component is zero. A mirror image feels gravity reversed.
+// What a record is multiplied with: {v, dv} = scale {p, f}/m. On a roller plane the normal component is zero.
 template <int Dim>
-STRANDLAB_INLINE NodeUpdate node_update(const Pencil& pencil, const Frame<Dim>& frame, double gravity_sign) {
-  NodeUpdate u{};
+STRANDLAB_INLINE Pack node_scale(const Pencil& pencil, const Step<Dim>& step) {
+  Pack scale{};
   for (int d = 0; d < Dim; ++d) {
-    const bool on_wall = d < Dim - 1 && (pencil.index[d] == frame.wall[d][0] || pencil.index[d] == frame.wall[d][1]);
+    const bool on_wall = d < Dim - 1 && (pencil.index[d] == step.wall[d][0] || pencil.index[d] == step.wall[d][1]);
     if (on_wall) continue;
-    u.scale[d] = 1;
-    u.scale[Dim + d] = frame.dt;
-    u.gravity[Dim + d] = frame.dt * frame.gravity[d] * (d == Dim - 1 ? gravity_sign : 1);
+    scale[d] = 1;
+    scale[Dim + d] = step.dt;
   }
-  return u;
+  return scale;
 }
 
-// v = p/m + dv, dv = dt f/m + dt g: the record becomes {v, dv, ..., m}. Returns sum m {v^2, dv^2} of the nodes and adds
-// sum m {v, dv} to `momentum`.
+// v = p/m + dv, dv = dt f/m: the record becomes {v, dv, ..., m}. Returns sum m {v^2, dv^2} of the nodes.
 template <int Dim>
-STRANDLAB_INLINE Pack advance_nodes(const PencilField::Rows& rows, const NodeUpdate& update, double* nodes,
-                                    Pack& momentum) {
+STRANDLAB_INLINE Pack advance_nodes(const PencilField::Rows& rows, const Pack& scale, double* nodes) {
   Pack squares{};
   double* r = nodes + kRecord * static_cast<long>(rows.base + rows.row_lo);
   for (int row = rows.row_lo; row < rows.row_hi; ++row, r += kRecord) {
     const Pack record = load(r);
     const double mass = record[0];
     const double inverse = mass > 0 ? 1 / mass : 0;
-    const Pack before =
-        momentum_and_force<Dim>(record) * inverse * update.scale + (mass > 0 ? 1.0 : 0.0) * update.gravity;
+    const Pack before = momentum_and_force<Dim>(record) * inverse * scale;
     Pack after = before + second_vector<Dim>(before);
-    momentum += mass * after;
     squares += mass * after * after;
     after[7] = mass;
     store(r, after);
@@ -69,34 +60,30 @@ STRANDLAB_INLINE Pack advance_nodes(const PencilField::Rows& rows, const NodeUpd
 }
 
 // Momentum balance at the nodes of a field and of its mirror images on a pencil, and its energies before contact: 1/2
-// sum m |dv|^2, of which lumping the mass costs a part when the particles take up dv, and the work of gravity on the
-// step's mean velocity.
+// sum m |dv|^2, of which lumping the mass costs a part when the particles take up dv.
 template <int Dim>
-STRANDLAB_INLINE void momentum_balance(const PencilField& field, const NodeUpdate& update,
-                                       const NodeUpdate& image_update, const Frame<Dim>& frame,
-                                       const GridView<Dim>& grid, PencilResult& result) {
-  Pack momentum{}, ignored{};
-  const Pack squares = advance_nodes<Dim>({field.base, field.row_lo, field.row_hi}, update, grid.nodes, momentum);
-  for (int k = 0; k < 2; ++k) advance_nodes<Dim>(field.mirror[k], image_update, grid.nodes, ignored);
+STRANDLAB_INLINE void momentum_balance(const PencilField& field, const Pack& scale, const GridView<Dim>& grid,
+                                       PencilResult& result) {
+  const Pack squares = advance_nodes<Dim>({field.base, field.row_lo, field.row_hi}, scale, grid.nodes);
+  for (int k = 0; k < 2; ++k) advance_nodes<Dim>(field.mirror[k], scale, grid.nodes);
   for (int d = 0; d < Dim; ++d) {
     result.kinetic_change += 0.5 * squares[Dim + d];
     result.force_change += 0.5 * squares[Dim + d];
-    result.external_work += momentum[d] * frame.dt * frame.gravity[d];
   }
 }
 
 // Contact at the nodes of one row of a pencil, momentum conserving, independent of the order of the bodies. Two bodies
 // that meet far from the platens are put into `encounters`, for later.
 template <int Dim>
-STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, const Frame<Dim>& frame,
+STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, const Step<Dim>& step,
                                   const GridView<Dim>& grid, Encounters<Dim>& encounters, PencilResult& result) {
-  const double cell = frame.cell[Dim - 1], reach = 0.25 * cell;
+  const double cell = step.cell[Dim - 1], reach = 0.25 * cell;
   const int begin = grid.row_start[pencil.slots + row - pencil.row_lo];
   const int end = grid.row_start[pencil.slots + row - pencil.row_lo + 1];
-  x[Dim - 1] = frame.origin[Dim - 1] + row * cell;
+  x[Dim - 1] = step.origin[Dim - 1] + row * cell;
   bool platen[2];
   for (int k = 0; k < 2; ++k) {
-    platen[k] = frame.platen[k].present && (frame.platen[k].position - x[Dim - 1]) * (k == 0 ? -1 : 1) < 1.5 * cell;
+    platen[k] = step.platen[k].present && (step.platen[k].position - x[Dim - 1]) * (k == 0 ? -1 : 1) < 1.5 * cell;
   }
   const int least = platen[0] || platen[1] ? 1 : 2;
   if (end - begin < least) return;
@@ -108,7 +95,7 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
     double* record = grid.nodes + kRecord * static_cast<long>(field.base + row);
     if (!(record[7] > 0)) continue;
     if (fields == kMaxFields) {
-      result.overflow = 1;
+      ++result.overflow;
       break;
     }
     m[fields].record = record;
@@ -135,7 +122,7 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
     }
     for (int k = 0; k < 2; ++k) {
       Pair<Dim>& pair = pairs[count];
-      if (!platen[k] || !platen_pair<Dim>(m[i], frame, k, x[Dim - 1], reach, pair)) continue;
+      if (!platen[k] || !platen_pair<Dim>(m[i], step, k, x[Dim - 1], reach, pair)) continue;
       if (!has_mirror<Dim>(field_of(i), k, row, grid, m[fields])) continue;
       pair.a = i;
       pair.b = fields++;
@@ -143,26 +130,26 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
       ++count;
     }
   }
-  if (count > 0) resolve<Dim>(m, fields, real, pairs, count, frame, result);
+  if (count > 0) resolve<Dim>(m, fields, real, pairs, count, step, result);
 }
 
 template <int Dim>
-void update_grid(const Pencil& pencil, const Frame<Dim>& frame, const GridView<Dim>& grid, bool profile,
+void update_grid(const Pencil& pencil, const Step<Dim>& step, const GridView<Dim>& grid, bool timed,
                  PencilResult& result) {
   if (pencil.ghost) return;
-  const NodeUpdate update = node_update<Dim>(pencil, frame, 1), image_update = node_update<Dim>(pencil, frame, -1);
+  const Pack scale = node_scale<Dim>(pencil, step);
   for (int f = pencil.field_begin; f < pencil.field_end; ++f)
-    momentum_balance<Dim>(grid.fields[f], update, image_update, frame, grid, result);
-  Lap lap(profile);
+    momentum_balance<Dim>(grid.fields[f], scale, grid, result);
+  Stopwatch watch(timed);
   double x[Dim];
-  for (int a = 0; a < Dim - 1; ++a) x[a] = frame.origin[a] + pencil.index[a] * frame.cell[a];
+  for (int a = 0; a < Dim - 1; ++a) x[a] = step.origin[a] + pencil.index[a] * step.cell[a];
   Encounters<Dim> encounters;
   for (int row = pencil.row_lo; row < pencil.row_hi; ++row) {
-    contact_row<Dim>(pencil, row, x, frame, grid, encounters, result);
-    if (encounters.count == kBlock) resolve<Dim>(encounters, frame, grid.friction, result);
+    contact_row<Dim>(pencil, row, x, step, grid, encounters, result);
+    if (encounters.count == kBlock) resolve<Dim>(encounters, step, grid.friction, result);
   }
-  resolve<Dim>(encounters, frame, grid.friction, result);
-  lap(result.contact_ticks);
+  resolve<Dim>(encounters, step, grid.friction, result);
+  watch(result.contact_ticks);
 }
 
 }  // namespace

@@ -58,6 +58,16 @@ STRANDLAB_INLINE Pack square_root(const Pack& a) {
   for (int l = 0; l < kLanes; ++l) r[l] = __builtin_sqrt(a[l]);
   return r;
 }
+// One number under the names of a pack's operations, for functions that work on both.
+STRANDLAB_INLINE double select(bool c, double a, double b) {
+  return c ? a : b;
+}
+STRANDLAB_INLINE double larger(double a, double b) {
+  return a > b ? a : b;
+}
+STRANDLAB_INLINE double square_root(double a) {
+  return __builtin_sqrt(a);
+}
 STRANDLAB_INLINE double sum(const Pack& a) {
   return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
 }

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "strandlab/mpm/kernels.hpp"
-#include "strandlab/mpm/kernels/lap.hpp"
 #include "strandlab/mpm/kernels/pack.hpp"
 #include "strandlab/mpm/kernels/stencil.hpp"
+#include "strandlab/mpm/kernels/stopwatch.hpp"
 #include "strandlab/mpm/kernels/strand_axes.hpp"
 
 namespace strandlab::mpm::STRANDLAB_ISA {
@@ -52,13 +52,13 @@ STRANDLAB_INLINE void add(double* record, const Pack& a) {
   store(record, load(record) + a);
 }
 
-STRANDLAB_INLINE void scatter_lane(const Rows<2>& r, const Stencil<2>& s, const Window& window, int l, double* nodes) {
+STRANDLAB_INLINE void scatter_lane(const Rows<2>& r, const Stencil<2>& s, const Patch& patch, int l, double* nodes) {
   const Pack zero{};
   const Pack momentum = __builtin_shufflevector(r.row[l], zero, 0, 1, 2, 8, 8, 8, 8, 8);
   const Pack column_x = __builtin_shufflevector(r.row[l], zero, 8, 8, 8, 3, 4, 8, 8, 8);
   const Pack column_y = __builtin_shufflevector(r.row[l], zero, 8, 8, 8, 4, 5, 8, 8, 8);
   int record[3];
-  pencil_records<2>(window, s, l, record);
+  pencil_records<2>(patch, s, l, record);
   for (int q = 0; q < 3; ++q) {
     const double wx = s.w[0][q][l];
     const Pack by_weight = momentum * wx + column_x * s.g[0][q][l];
@@ -67,14 +67,14 @@ STRANDLAB_INLINE void scatter_lane(const Rows<2>& r, const Stencil<2>& s, const 
     for (int j = 0; j < 3; ++j) add(node + kRecord * j, by_weight * s.w[1][j][l] + by_gradient * s.g[1][j][l]);
   }
 }
-STRANDLAB_INLINE void scatter_lane(const Rows<3>& r, const Stencil<3>& s, const Window& window, int l, double* nodes) {
+STRANDLAB_INLINE void scatter_lane(const Rows<3>& r, const Stencil<3>& s, const Patch& patch, int l, double* nodes) {
   const Pack zero{};
   const Pack& momentum = r.row[l];
   const Pack column_x = __builtin_shufflevector(r.stress[l], zero, 8, 8, 8, 8, 0, 5, 4, 8);
   const Pack column_y = __builtin_shufflevector(r.stress[l], zero, 8, 8, 8, 8, 5, 1, 3, 8);
   const Pack column_z = __builtin_shufflevector(r.stress[l], zero, 8, 8, 8, 8, 4, 3, 2, 8);
   int record[9];
-  pencil_records<3>(window, s, l, record);
+  pencil_records<3>(patch, s, l, record);
   for (int q = 0; q < 9; ++q) {
     const double w = pencil_weight<3>(s, q, l);
     const Pack by_weight =
@@ -88,21 +88,21 @@ STRANDLAB_INLINE void scatter_lane(const Rows<3>& r, const Stencil<3>& s, const 
 // The mirror image of eight particles in platen k: reflected position, velocity relative to the platen, and stress.
 template <int Dim>
 STRANDLAB_INLINE void scatter_mirror(const Pack (&x)[Dim], const Pack (&v)[Dim], const Pack (&F)[Dim * Dim],
-                                     const Pack (&tau)[6], const BodyView<Dim>& body, const Frame<Dim>& frame, int k,
+                                     const Pack (&tau)[6], const BodyView<Dim>& body, const Step<Dim>& step, int k,
                                      int lanes, double* nodes) {
   constexpr int y = Dim - 1;
-  const Pack depth = absolute(x[y] - frame.platen[k].position) * frame.inverse_cell[y];
+  const Pack depth = absolute(x[y] - step.platen[k].position) * step.inverse_cell[y];
   const Mask close = depth < kMirrorDepth;
   if (!any(close)) return;
   Pack mx[Dim], mv[Dim], mF[Dim * Dim], mtau[6];
   for (int a = 0; a < Dim; ++a) {
-    mx[a] = a == y ? 2 * frame.platen[k].position - x[a] : x[a];
-    mv[a] = a == y ? 2 * frame.platen[k].velocity - v[a] : v[a];
+    mx[a] = a == y ? 2 * step.platen[k].position - x[a] : x[a];
+    mv[a] = a == y ? 2 * step.platen[k].velocity - v[a] : v[a];
     for (int b = 0; b < Dim; ++b) mF[a * Dim + b] = (a == y) == (b == y) ? F[a * Dim + b] : -F[a * Dim + b];
   }
   for (int c = 0; c < (Dim == 2 ? 4 : 6); ++c) mtau[c] = c == 3 || c == 4 ? -tau[c] : tau[c];  // 13 and 23 change sign
   Stencil<Dim> s;
-  stencil_at<Dim>(mx, mF, body.half_size, frame, s);
+  stencil_at<Dim>(mx, mF, body.half_size, step, s);
   Rows<Dim> rows;
   prepare(mv, mF, mtau, body.mass, body.volume, rows);
   for (int l = 0; l < lanes; ++l) {
@@ -129,7 +129,7 @@ STRANDLAB_INLINE void current_area(const Pack (&F)[9], const Pack (&A)[3], Pack 
 // One pack of face points onto the surface records of their face.
 template <int Dim>
 STRANDLAB_INLINE void scatter_surface(const SurfaceView<Dim>& face, int pack, const BodyView<Dim>& body,
-                                      const Frame<Dim>& frame, double* surface) {
+                                      const Step<Dim>& step, double* surface) {
   constexpr int kSize = kSurfaceRecord<Dim>;
   Pack x[Dim], F[Dim * Dim], offset[Dim], area[Dim];
   const int* where = face.where + pack * kBlock;
@@ -155,7 +155,7 @@ STRANDLAB_INLINE void scatter_surface(const SurfaceView<Dim>& face, int pack, co
     along += N[a] * x[a];
   }
   Stencil<Dim> s;
-  stencil_at<Dim>(x, F, body.half_size, frame, s);
+  stencil_at<Dim>(x, F, body.half_size, step, s);
   Pack row[8] = {};
   for (int a = 0; a < Dim; ++a) row[a] = N[a];
   row[Dim] = square_root(size2);
@@ -164,7 +164,7 @@ STRANDLAB_INLINE void scatter_surface(const SurfaceView<Dim>& face, int pack, co
   for (int l = 0; l < kBlock; ++l) {
     if (row[l][Dim] == 0) continue;  // padding
     int record[kPencils<Dim>];
-    pencil_records<Dim>(face.window, s, l, record);
+    pencil_records<Dim>(face.patch, s, l, record);
     for (int q = 0; q < kPencils<Dim>; ++q) {
       double* node = surface + kSize * static_cast<long>(record[q]);
       const double w = pencil_weight<Dim>(s, q, l);
@@ -185,10 +185,10 @@ STRANDLAB_INLINE void scatter_surface(const SurfaceView<Dim>& face, int pack, co
 }
 
 template <int Dim>
-void scatter(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& frame, double* nodes, double* surface,
-             const unsigned char* lanes, bool profile, TileResult& result) {
+void scatter(const Tile& tile, const BodyView<Dim>& body, const Step<Dim>& step, double* nodes, double* surface,
+             const unsigned char* lanes, bool timed, TileResult& result) {
   using C = Component<Dim>;
-  Lap lap(profile);
+  Stopwatch watch(timed);
   const long stride = static_cast<long>(C::count(body.components)) * kBlock;
   for (int b = tile.block_begin; b < tile.block_end; ++b) {
     const double* block = body.blocks + b * stride;
@@ -199,21 +199,21 @@ void scatter(const Tile& tile, const BodyView<Dim>& body, const Frame<Dim>& fram
     load_packs(block + C::F * kBlock, F);
     for (int k = 0; k < (Dim == 2 ? 4 : 6); ++k) tau[k] = load(block + (C::stress + k) * kBlock);
     Stencil<Dim> s;
-    stencil_at<Dim>(x, F, body.half_size, frame, s);
-    lap(result.ticks[0]);
+    stencil_at<Dim>(x, F, body.half_size, step, s);
+    watch(result.ticks.weights);
     Rows<Dim> rows;
     prepare(v, F, tau, body.mass, body.volume, rows);
-    for (int l = 0; l < lanes[b]; ++l) scatter_lane(rows, s, body.window, l, nodes);
+    for (int l = 0; l < lanes[b]; ++l) scatter_lane(rows, s, body.patch, l, nodes);
     for (int k = 0; k < 2; ++k) {
-      if (body.mirror[k].height > 0) scatter_mirror<Dim>(x, v, F, tau, body, frame, k, lanes[b], nodes);
+      if (body.mirror[k].height > 0) scatter_mirror<Dim>(x, v, F, tau, body, step, k, lanes[b], nodes);
     }
-    lap(result.ticks[1]);
+    watch(result.ticks.scatter);
   }
   for (int f = 0; f < body.faces; ++f) {
     for (int p = tile.face_begin[f]; p < tile.face_end[f]; ++p)
-      scatter_surface<Dim>(body.face[f], p, body, frame, surface);
+      scatter_surface<Dim>(body.face[f], p, body, step, surface);
   }
-  lap(result.ticks[2]);
+  watch(result.ticks.surface);
 }
 
 }  // namespace

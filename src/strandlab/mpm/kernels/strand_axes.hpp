@@ -7,7 +7,7 @@ namespace strandlab::mpm::STRANDLAB_ISA {
 namespace {
 
 // The strand's axes in the current state: along = F a0/|F a0|, thickness perpendicular to it (in 3D: also to the
-// material line across), across completes the right-handed frame. F is row-major. axes[k] are the directions 1 = along,
+// material line across), across completes the right-handed axes. F is row-major. axes[k] are the directions 1 = along,
 // 2 = across, 3 = thickness.
 STRANDLAB_INLINE void strand_axes(const Pack (&F)[4], Pack (&along)[2]) {
   const Pack s = 1.0 / square_root(F[0] * F[0] + F[2] * F[2]);

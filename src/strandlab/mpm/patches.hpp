@@ -1,4 +1,4 @@
-// Where each body's nodes are: dense windows of rows on pencils, and for every pencil the fields that live on it.
+// Where each body's nodes are: dense patches of rows on pencils, and for every pencil the fields that live on it.
 #pragma once
 
 #include <array>
@@ -30,14 +30,14 @@ class Extents {
   bool flat_;
 };
 
-// A window over its records, which start at `start` in the node array.
-struct WindowStore {
-  Window window{};
+// A patch over its records, which start at `start` in the node array.
+struct PatchStore {
+  Patch patch{};
   std::vector<int> base;
   std::vector<int> lo, hi;  // rows really used, per pencil
   int records = 0;
   void place(const Extents& extents, int start);
-  int pencils() const { return window.count[0] * window.count[1]; }
+  int pencils() const { return patch.count[0] * patch.count[1]; }
 };
 
 // All pencils of the grid with their fields, and the rows where fields may meet.
@@ -48,13 +48,13 @@ struct PencilTable {
   std::vector<RowField> slots;
 };
 
-struct BodyWindows {
-  WindowStore field;
-  std::vector<WindowStore> faces;
-  std::array<WindowStore, 2> mirrors;  // images in the bottom and the top platen; no pencils: far away
+struct BodyPatches {
+  PatchStore field;
+  std::vector<PatchStore> faces;
+  std::array<PatchStore, 2> mirrors;  // images in the bottom and the top platen; no pencils: far away
 };
 
 // `walls[axis][side]` is the node index of a roller plane or kNoWall; lateral axes only.
-PencilTable tabulate(const std::vector<BodyWindows>& bodies, const std::array<std::array<int, 2>, 2>& walls);
+PencilTable tabulate(const std::vector<BodyPatches>& bodies, const std::array<std::array<int, 2>, 2>& walls);
 
 }  // namespace strandlab::mpm

@@ -1,4 +1,4 @@
-// A clock for profiling the kernels.
+// A stopwatch for the phases of the kernels.
 #pragma once
 
 #include <time.h>
@@ -8,7 +8,7 @@
 namespace strandlab::mpm::STRANDLAB_ISA {
 namespace {
 
-// A cheap clock for profiling: ticks of constant rate, converted to seconds by the engine.
+// A cheap clock: ticks of constant rate, converted to seconds by the engine.
 STRANDLAB_INLINE double now() {
 #if defined(__x86_64__)
   return static_cast<double>(__builtin_ia32_rdtsc());
@@ -19,11 +19,11 @@ STRANDLAB_INLINE double now() {
 #endif
 }
 
-// Adds the time since the last lap to a total, when profiling.
-struct Lap {
+// Adds the time since it was last read to a total, when the engine is timed.
+struct Stopwatch {
   bool on;
   double t;
-  explicit Lap(bool profile) : on(profile), t(profile ? now() : 0) {}
+  explicit Stopwatch(bool timed) : on(timed), t(timed ? now() : 0) {}
   STRANDLAB_INLINE void operator()(double& total) {
     if (!on) return;
     const double s = now();

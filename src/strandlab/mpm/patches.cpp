@@ -1,4 +1,4 @@
-#include "strandlab/mpm/windows.hpp"
+#include "strandlab/mpm/patches.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -60,12 +60,12 @@ void Extents::merge(std::array<int, 2> a, std::array<int, 2> b) {
   hi[i] = hi[j] = std::max(hi[i], hi[j]);
 }
 
-void WindowStore::place(const Extents& e, int start) {
-  window.first[0] = e.first[0];
-  window.first[1] = e.first[1];
-  window.count[0] = e.count[0];
-  window.count[1] = e.count[1];
-  window.height = 0;
+void PatchStore::place(const Extents& e, int start) {
+  patch.first[0] = e.first[0];
+  patch.first[1] = e.first[1];
+  patch.count[0] = e.count[0];
+  patch.count[1] = e.count[1];
+  patch.height = 0;
   lo = e.lo;
   hi = e.hi;
   for (std::size_t i = 0; i < lo.size(); ++i) {
@@ -73,31 +73,31 @@ void WindowStore::place(const Extents& e, int start) {
       lo[i] = 0;
       hi[i] = -1;
     }
-    window.height = std::max(window.height, hi[i] - lo[i] + 1);
+    patch.height = std::max(patch.height, hi[i] - lo[i] + 1);
   }
   base.resize(lo.size());
-  for (std::size_t i = 0; i < lo.size(); ++i) base[i] = start + static_cast<int>(i) * window.height - lo[i];
-  records = static_cast<int>(lo.size()) * window.height;
-  window.base = base.data();
+  for (std::size_t i = 0; i < lo.size(); ++i) base[i] = start + static_cast<int>(i) * patch.height - lo[i];
+  records = static_cast<int>(lo.size()) * patch.height;
+  patch.base = base.data();
 }
 
 namespace {
 
-bool find_pencil(const WindowStore& w, const std::array<int, 2>& index, int& pencil) {
-  const int i = index[0] - w.window.first[0], j = index[1] - w.window.first[1];
-  if (i < 0 || j < 0 || i >= w.window.count[0] || j >= w.window.count[1]) return false;
-  pencil = j * w.window.count[0] + i;
+bool find_pencil(const PatchStore& w, const std::array<int, 2>& index, int& pencil) {
+  const int i = index[0] - w.patch.first[0], j = index[1] - w.patch.first[1];
+  if (i < 0 || j < 0 || i >= w.patch.count[0] || j >= w.patch.count[1]) return false;
+  pencil = j * w.patch.count[0] + i;
   return w.hi[pencil] >= w.lo[pencil];
 }
 
-PencilField::Rows rows_on(const WindowStore& w, const std::array<int, 2>& index) {
+PencilField::Rows rows_on(const PatchStore& w, const std::array<int, 2>& index) {
   int p = 0;
   if (!find_pencil(w, index, p)) return {0, 0, 0};
   return {w.base[p], w.lo[p], w.hi[p] + 1};
 }
 
 // The fields of one pencil, by body.
-void add_fields(const std::vector<BodyWindows>& bodies, const std::array<int, 2>& index, PencilTable& table) {
+void add_fields(const std::vector<BodyPatches>& bodies, const std::array<int, 2>& index, PencilTable& table) {
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     int p = 0;
     if (!find_pencil(bodies[b].field, index, p)) continue;
@@ -113,7 +113,7 @@ void add_fields(const std::vector<BodyWindows>& bodies, const std::array<int, 2>
   }
 }
 
-// For every row of a pencil the fields whose windows hold it.
+// For every row of a pencil the fields whose patches hold it.
 void add_rows(Pencil& pencil, PencilTable& table) {
   pencil.row_lo = kEmptyLo;
   pencil.row_hi = kEmptyHi;
@@ -138,12 +138,12 @@ void add_rows(Pencil& pencil, PencilTable& table) {
 
 }  // namespace
 
-PencilTable tabulate(const std::vector<BodyWindows>& bodies, const std::array<std::array<int, 2>, 2>& walls) {
+PencilTable tabulate(const std::vector<BodyPatches>& bodies, const std::array<std::array<int, 2>, 2>& walls) {
   std::array<int, 2> first{kEmptyLo, kEmptyLo}, last{kEmptyHi, kEmptyHi};
   for (const auto& body : bodies) {
     for (int a = 0; a < 2; ++a) {
-      first[a] = std::min(first[a], body.field.window.first[a]);
-      last[a] = std::max(last[a], body.field.window.first[a] + body.field.window.count[a] - 1);
+      first[a] = std::min(first[a], body.field.patch.first[a]);
+      last[a] = std::max(last[a], body.field.patch.first[a] + body.field.patch.count[a] - 1);
     }
   }
   PencilTable table;
