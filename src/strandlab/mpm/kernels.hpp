@@ -11,7 +11,7 @@ inline constexpr int kBlock = 8;   // particles per block: one SIMD pack
 inline constexpr int kRecord = 8;  // doubles per node record
 inline constexpr int kMaxFaces = 6;
 inline constexpr int kMaxFields = 24;           // fields meeting at one node
-inline constexpr int kContactPasses = 40;       // over the pairs at a node, at most
+inline constexpr int kContactPasses = 40;       // over the pairs at a node, at most: judgement, see kContactTolerance
 inline constexpr double kLargestStress = 1e30;  // MPa; beyond, and not a number: failed
 
 // Particles live in blocks of eight; a block holds one pack per component, in this order.
@@ -44,8 +44,9 @@ struct Step {
 };
 inline constexpr int kNoWall = 1 << 30;
 
-// Dense nodes of a field: `height` rows on each pencil (line of nodes through the thickness), each pencil with its own
-// offset, so that node (pencil, row) is record base[pencil] + row.
+// A dense patch of nodes, those of one field: `height` rows on each pencil, a line of nodes through the thickness. Node
+// (pencil, row) is record base[pencil] + row: every pencil has an offset of its own, so that its rows begin where the
+// body is. (A sketch is in docs/architecture.md.)
 struct Patch {
   int first[2];  // first pencil along each lateral axis
   int count[2];  // pencils along each lateral axis (2D: count[1] = 1)
@@ -78,7 +79,10 @@ struct BodyView {
 };
 
 // A platen acts on a body as contact with the body's own mirror image: exact for a flat rigid wall wherever it lies
-// between the grid lines. Particles within this distance of it, in cells, are mirrored.
+// between the grid lines. Particles within this distance of it, in cells, are mirrored: contact with a platen is
+// resolved at nodes up to 1.5 cells from it (kernels/grid_update.hpp), and a particle reaches a node from less than 1.5
+// cells away. Of an image further away than this at most a tenth falls on a node that the body itself reaches.
+// Judgement.
 inline constexpr double kMirrorDepth = 2.3;
 
 // Unit of parallel work: a run of blocks of one body, and the face points that ride on them (in packs of eight).

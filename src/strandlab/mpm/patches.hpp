@@ -8,7 +8,7 @@
 
 namespace strandlab::mpm {
 
-// Rows of nodes that a set of points may touch, per pencil of its lateral bounding box.
+// The rows of nodes that a set of points may touch, on every pencil of their bounding box seen from above.
 class Extents {
  public:
   static constexpr int kReach = 1;  // a stencil reaches one node to each side of the nearest
@@ -30,7 +30,7 @@ class Extents {
   bool flat_;
 };
 
-// A patch over its records, which start at `start` in the node array.
+// A patch and what it points to. `start`: its first record in the node array.
 struct PatchStore {
   Patch patch{};
   std::vector<int> base;

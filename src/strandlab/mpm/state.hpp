@@ -21,8 +21,9 @@ struct Energies {
   double plastic = 0;   // dissipated: sum V0 tau : d eps_p
   double friction = 0;  // dissipated by slip against friction
   double contact = 0;   // lost in inelastic meetings (normal impulses)
-  // Lost in the algorithm: to the velocity filter, to lumping when impulses pass from grid to particles, and because
-  // forces change the grid's velocity over its mean in a step while stresses work on its last.
+  // Lost in the algorithm, not in the wood. Three parts: the kinetic energy that the velocity filter takes; that of the
+  // changes of velocity, 1/2 sum m |dv|^2, which is larger on the grid than on the particles that take them up; and the
+  // difference of the work of forces, on the mean velocity of a step, and of stresses, on its last.
   double filter = 0;
   double platen_work = 0;    // done by the platens on the bodies
   double external_work = 0;  // done by tractions and gravity

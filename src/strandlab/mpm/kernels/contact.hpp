@@ -14,8 +14,9 @@ STRANDLAB_INLINE double dot(const double* a, const double* b) {
   return s;
 }
 
-// One face of a field at a node: area-weighted outward normal N = W n, and W times the signed distance from the node to
-// the face along it.
+// The mean face of a field at a node: the plane that stands for all face points near it. `N` is the sum of their
+// weighted areas along their outward normals, `W` the same without direction, so that |N| = W where the face is plane.
+// `distance_W` is W times the distance from the node to the plane along N, positive where the node is inside.
 template <int Dim>
 struct NodeFace {
   const double* N;
@@ -90,14 +91,17 @@ STRANDLAB_INLINE void find_faces(const PencilField& field, unsigned faces, int r
     const double W = s[Dim];
     if (!(W > 0)) continue;
     const double size2 = dot<Dim>(s, s);
-    if (size2 < 0.25 * W * W) continue;  // normals cancel: an edge folded onto a symmetry plane
+    // Normals that cancel make no plane: |N| < W/2, as at an edge folded onto a symmetry plane. Judgement: two normals
+    // 120 degrees apart have |N| = W/2.
+    if (size2 < 0.25 * W * W) continue;
     m.face[m.faces++] = {s, W, size2, s[Dim + 1] - dot<Dim>(s, x)};
   }
 }
 
-// Of all pairs of faces that oppose each other (by more than 120 degrees) the one that is furthest apart separates the
-// bodies. Returns false if there is none or the gap is too wide to close in a step. pair.n is not yet normalised: see
-// finish_pair.
+// The pair of faces that separates two bodies: of those that oppose each other the one that is furthest apart. Faces
+// oppose each other from 120 degrees between their normals on: judgement; 160 degrees loses contacts of tilted faces
+// (tests/verification/contact/faces_test.cpp). Returns false if there is none or it is wider than `reach`. pair.n is
+// not yet normalised: see finish_pair.
 template <int Dim>
 STRANDLAB_INLINE bool find_pair(const Meeting<Dim>& a, const Meeting<Dim>& b, double reach, Pair<Dim>& pair) {
   pair.gap = -1e300;
@@ -120,10 +124,11 @@ STRANDLAB_INLINE bool find_pair(const Meeting<Dim>& a, const Meeting<Dim>& b, do
   return true;
 }
 
-// Part of an overlap that is pushed back while a wave crosses a cell, and the deepest overlap that counts, in cells. At
-// a platen the impulses stop the mean motion of the nodes, not the face itself, which would creep through over
-// thousands of steps; returning so small an overlap so slowly costs no energy worth the name. Between bodies none is
-// pushed back: overlaps of ends that met at speed would turn into elastic energy.
+// Overlap with a platen is pushed back: this part of it while a wave crosses a cell, and no more than the deepest one,
+// in cells. Impulses stop the mean motion of the nodes, not the face itself, which would creep through over thousands
+// of steps; returning so small an overlap so slowly gives back about a thousandth of the platens' work. Overlap between
+// bodies stays: that of ends that met at speed would turn into elastic energy. Both numbers are judgement; other values
+// have not been compared.
 inline constexpr double kPlatenReturn = 0.05;
 inline constexpr double kDeepestReturn = 0.1;
 
@@ -237,8 +242,9 @@ STRANDLAB_INLINE void resolve(Meeting<Dim>* m, int fields, int real, Pair<Dim>* 
   }
 }
 
-// The mirror image of a field in platen k; false where it has no mass. In contact its tangential motion counts
-// reversed, so that a pair that sticks stops at the wall while one that slides feels only the friction allowed.
+// The mirror image of a field in platen k; false where it has no mass. Its nodes move along with the body in the plane
+// of the platen and against it through the thickness. In contact its motion in the plane counts reversed: then a pair
+// that sticks stands still, as on a rigid wall, and one that slides feels no more friction than the law allows.
 template <int Dim>
 STRANDLAB_INLINE bool has_mirror(const PencilField& field, int k, int row, const GridView<Dim>& grid, Meeting<Dim>& m) {
   if (row < field.mirror[k].row_lo || row >= field.mirror[k].row_hi) return false;
@@ -246,9 +252,9 @@ STRANDLAB_INLINE bool has_mirror(const PencilField& field, int k, int row, const
   return m.record[7] > 0;
 }
 
-// Contact of a field with platen k: the pair of the field (a) and its image (b). The gap to the image is twice that to
-// the wall. Of the faces that look at the wall the one furthest from it counts: where two of them meet, at a strand's
-// end, the body lies behind both, and the plane of one reaches beyond the body.
+// Contact of a field with platen k: the pair of the field (a) and its image (b), which is twice as far from it as the
+// wall. Of the faces that look at the wall, by 60 degrees or less, the one furthest from it counts: at a strand's end
+// two of them meet, the body lies behind both, and the plane of each goes on where there is no body.
 template <int Dim>
 STRANDLAB_INLINE bool platen_pair(const Meeting<Dim>& field, const Step<Dim>& step, int k, double node_height,
                                   double reach, Pair<Dim>& pair) {

@@ -74,6 +74,10 @@ STRANDLAB_INLINE void momentum_balance(const PencilField& field, const Pack& sca
 
 // Contact at the nodes of one row of a pencil, momentum conserving, independent of the order of the bodies. Two bodies
 // that meet far from the platens are put into `encounters`, for later.
+//
+// A pair is looked at from a quarter of a cell between its faces on. Closer faces act only if they would cross within
+// the step, so that the number decides what is looked at; it must hold what a step can close (at 64 m/s a few
+// hundredths of a cell). Judgement; a twentieth of a cell loses contacts (faces_test.cpp).
 template <int Dim>
 STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, const Step<Dim>& step,
                                   const GridView<Dim>& grid, Encounters<Dim>& encounters, PencilResult& result) {
