@@ -10,8 +10,9 @@ HEADING = re.compile(r"^#### `(.*)`$", re.MULTILINE)
 # What begins a warning: said while a run goes on, kept of a press or test, found of its numbers, or a picture that is missing.
 WARNING = re.compile(r"(?:\bwarn\(|\bwarnings?(?:->|\.)push_back\(|\bw\.push_back\(|\bkWarning,|\bwarning =|"
                      r"return (?=fmt::format\(\"no picture))\s*(?:fmt::format\(\s*)?(" + LITERAL + r"(?:\s*" + LITERAL + ")*)")
-# Remarks of a hot press cycle are pushed to a plain list.
-REMARK = re.compile(r"\blist\.push_back\(\s*fmt::format\(\s*(" + LITERAL + r"(?:\s*" + LITERAL + ")*)")
+# Remarks on a hot press cycle are pushed to a plain list, in these files.
+REMARKING = ("src/strandlab/hotpress/answers.cpp", "src/strandlab/run/hotpress.cpp")
+REMARK = re.compile(r"\blist\.push_back\(\s*(?:fmt::format\(\s*)?(" + LITERAL + r"(?:\s*" + LITERAL + ")*)")
 PLACEHOLDER = r"\{[^{}]*\}"
 
 
@@ -41,7 +42,7 @@ def main():
         for piece in pieces(heading, "…"):
             check(piece in printed, f"docs/warnings.md: no source prints \"{piece}\" of \"{heading}\"")
     warnings = [unquoted(found) for text in sources.values() for found in WARNING.findall(text)]
-    warnings += [unquoted(found) for found in REMARK.findall(sources[SOURCE / "src/strandlab/hotpress/answers.cpp"])]
+    warnings += [unquoted(found) for file in REMARKING for found in REMARK.findall(sources[SOURCE / file])]
     check(len(warnings) > 20, f"only {len(warnings)} warnings found in the sources")
     for warning in warnings:
         says_something = sum(map(len, pieces(warning, PLACEHOLDER))) > 12  # else it passes on another
