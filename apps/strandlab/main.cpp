@@ -79,6 +79,8 @@ int run(int argc, char** argv) {
   strandlab::app::add_bondline(app);
   strandlab::app::add_hotpress(app);
   strandlab::app::add_profile(app);
+  strandlab::app::add_study(app);
+  strandlab::app::add_compare(app);
   strandlab::app::add_bench(app);
   if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);
   strandlab::mpm::instruction_set();  // STRANDLAB_ISA is refused before any file is written

@@ -1,0 +1,91 @@
+// strandlab study: many panels by one plan. strandlab compare: finished runs side by side.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "strandlab/study/command.hpp"
+#include "strandlab/study/compare.hpp"
+#include "terminal.hpp"
+
+namespace strandlab::app {
+namespace {
+
+struct StudyArguments {
+  study::Command command;
+  std::string keep = "panels";
+  double memory_MB = 0;
+};
+
+using Act = void (*)(const study::Command&, run::Observer&);
+
+CLI::App* add_act(CLI::App& study, const char* name, const char* description, StudyArguments& a, Act act) {
+  auto* command = study.add_subcommand(name, description);
+  command->callback([&a, act] {
+    a.command.runner.keep = a.keep == "moduli" ? study::Keep::kModuli : study::Keep::kPanels;
+    a.command.runner.memory_bytes = 1e6 * a.memory_MB;
+    Terminal terminal;
+    act(a.command, terminal);
+  });
+  return command;
+}
+
+void add_plan_arguments(CLI::App& command, StudyArguments& a) {
+  command.add_option("PLAN", a.command.plan, "plan file (docs/studies.md)")->required();
+  command.add_option("-o,--output", a.command.folder, "folder of the study; default runs/<name of the plan>")
+      ->type_name("DIR");
+  command.add_flag("--dry-run", a.command.dry_run, "print the plan and what it will cost, write nothing");
+}
+
+void add_work_arguments(CLI::App& command, StudyArguments& a) {
+  command.add_option("--keep", a.keep, "panels, for further tests, or moduli: tables only")
+      ->check(CLI::IsMember({"panels", "moduli"}))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_study(CLI::App& app) {
+  auto* study = app.add_subcommand("study", "many panels by one plan: axes, replicates, differences (docs/studies.md)");
+  study->require_subcommand(1);
+  auto shared = std::make_shared<StudyArguments>();
+  auto& a = *shared;
+  study->callback([shared] {});  // keeps the arguments as long as the command line
+  auto* run = add_act(*study, "run", "plan, run and collect; again: goes on, or extends", a, study::run);
+  add_plan_arguments(*run, a);
+  add_work_arguments(*run, a);
+  run->add_option("--workers", a.command.runner.workers, "items at a time (default: one per core)")
+      ->check(CLI::Range(1, 1024));
+  run->add_option("--memory-MB", a.memory_MB, "that all workers may take (default: what is free)")
+      ->check(CLI::PositiveNumber);
+  add_plan_arguments(*add_act(*study, "plan", "write plan.csv: every item, its case, its estimate", a, study::plan), a);
+  auto* item = add_act(*study, "item", "run or resume one item; exit code 0 when it is whole", a, study::item);
+  item->add_option("DIR", a.command.folder, "folder of the study")->required();
+  item->add_option("K", a.command.item, "number or hash of the item in plan.csv")->required();
+  item->add_option("--threads", a.command.threads, "threads (default 1)")->check(CLI::Range(1, 1024));
+  add_work_arguments(*item, a);
+  auto* collect = add_act(*study, "collect", "write the tables of the items that are whole", a, study::collect);
+  collect->add_option("DIR", a.command.folder, "folder of the study")->required();
+}
+
+void add_compare(CLI::App& app) {
+  struct CompareArguments {
+    std::vector<std::string> runs;
+    std::string csv;
+  };
+  auto arguments = std::make_shared<CompareArguments>();
+  auto* command =
+      app.add_subcommand("compare", "moduli of finished runs: mean and interval per case, paired differences");
+  command->add_option("RUN", arguments->runs, "run folders; runs of a case with other seeds are replicates")
+      ->required();
+  command->add_option("--csv", arguments->csv, "also write a table to this file; - prints it instead");
+  command->callback([arguments] {
+    const auto comparison = study::compare_runs(arguments->runs);
+    print("{}", arguments->csv == "-" ? table_of(comparison).text() : text_of(comparison));
+    if (!arguments->csv.empty() && arguments->csv != "-") table_of(comparison).write(arguments->csv);
+  });
+}
+
+}  // namespace strandlab::app
