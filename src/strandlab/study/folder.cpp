@@ -50,45 +50,60 @@ bool read_item(const std::string& line, Item& item) {
   return valid;
 }
 
-// The hashes are in plan.csv, all else follows from plan.toml. A text with a line break in a value cannot be in it.
+// The items of plan.csv, without their values, and their lines; up to the first line that is none.
+struct Rows {
+  std::vector<Item> items;
+  std::vector<std::string> lines;
+  bool all_read = true;
+};
+
+Rows read_rows(const std::string& table) {
+  Rows rows;
+  std::istringstream lines(table);
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    Item item;
+    rows.all_read = read_item(line, item) && item.number == static_cast<int>(rows.items.size()) + 1;
+    if (!rows.all_read) break;
+    rows.items.push_back(std::move(item));
+    rows.lines.push_back(line);
+  }
+  return rows;
+}
+
+// The hashes are in plan.csv, all else follows from plan.toml.
 std::vector<Item> read_items(const Plan& plan, const fs::path& file) {
   const auto text = files::read_text(file);
   if (!text) throw InputError(fmt::format("{}: missing; strandlab study plan writes it", file.string()));
+  auto rows = read_rows(*text);
   const auto cells = cells_of(plan);
   const auto all = cells.size() * static_cast<std::size_t>(plan.replicates);
-  std::istringstream lines(*text);
-  std::string line;
-  std::getline(lines, line);
-  std::vector<Item> items;
-  while (std::getline(lines, line)) {
-    Item item;
-    if (!read_item(line, item) || items.size() == all || item.number != static_cast<int>(items.size()) + 1) {
-      throw InputError(
-          fmt::format("{}:{}: not an item of the plan beside it; strandlab study plan writes this file "
-                      "again",
-                      file.string(), items.size() + 2));
-    }
-    item.values = values_of(plan, cells[items.size() % cells.size()]);
-    items.push_back(std::move(item));
+  if (!rows.all_read || rows.items.size() != all) {
+    throw InputError(
+        fmt::format("{}: not the {} items of the plan beside it, {} are read; strandlab study plan writes "
+                    "this file again",
+                    file.string(), all, rows.items.size()));
   }
-  if (items.size() == all) return items;
-  throw InputError(fmt::format("{}: {} items, the plan beside it has {}; strandlab study plan writes this file again",
-                               file.string(), items.size(), all));
+  for (std::size_t i = 0; i < all; ++i) rows.items[i].values = values_of(plan, cells[i % cells.size()]);
+  return std::move(rows.items);
 }
 
-void refuse_foreign_folder(const fs::path& folder) {
+// A study has a plan.csv. What else may be there: items and pressings of other machines, what a kill left, and this
+// very plan.
+void refuse_foreign_folder(const fs::path& folder, const Plan& plan) {
   std::error_code error;
   const auto status = fs::status(folder, error);
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status))
     throw InputError(fmt::format("{}: this is not a folder; choose another with -o", folder.string()));
-  if (fs::exists(folder / "plan.toml", error)) return;
+  if (fs::exists(folder / "plan.csv", error)) return;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().filename() == "items" || entry.path().filename() == "pressings" ||
-        files::is_temporary(entry.path()))
-      continue;
+    const auto name = entry.path().filename();
+    const bool ours = name == "items" || name == "pressings" || files::is_temporary(name);
+    if (ours || (name == "plan.toml" && files::read_text(entry.path()) == plan.text)) continue;
     throw InputError(
-        fmt::format("{}: this folder holds files but no study (no plan.toml); choose an empty or a new "
+        fmt::format("{}: this folder holds files but no study (no plan.csv); choose an empty or a new "
                     "one with -o",
                     folder.string()));
   }
@@ -97,28 +112,23 @@ void refuse_foreign_folder(const fs::path& folder) {
 
 // A changed plan extends a study. One that lacks its pressings is another study's, or would leave them behind.
 void refuse_other_plan(const fs::path& folder, const std::vector<PlannedItem>& items) {
-  std::error_code error;
-  if (!fs::exists(folder / "plan.toml", error) || !fs::exists(folder / "plan.csv", error)) return;
-  std::set<std::string> here;
+  const auto table = files::read_text(folder / "plan.csv");
+  if (!table) return;
+  std::set<std::string> here, lost;
   for (const auto& planned : items) here.insert(planned.item.pressing);
-  const auto there = open_study(folder);
-  const Item* lost = nullptr;
-  std::set<std::string> all_lost;
-  for (const auto& item : there.items) {
-    if (here.contains(item.pressing)) continue;
-    all_lost.insert(item.pressing);
-    if (!lost) lost = &item;
+  const auto there = read_rows(*table);
+  std::string first;
+  for (std::size_t i = 0; i < there.items.size(); ++i) {
+    if (here.contains(there.items[i].pressing)) continue;
+    lost.insert(there.items[i].pressing);
+    if (first.empty()) first = there.lines[i];
   }
-  if (!lost) return;
-  std::string which;
-  const auto keys = varied_keys(there.plan);
-  for (std::size_t k = 0; k < keys.size(); ++k)
-    which += fmt::format(", {} = {}", keys[k], lost->values[k].empty() ? "as the base" : shortened(lost->values[k]));
+  if (lost.empty()) return;
   throw InputError(
-      fmt::format("{}: holds the study of another plan: {} of its pressings are not in this one, the first "
-                  "of item {}{}, seed {}. A plan may be given more values, replicates, tests and glues; "
-                  "choose another folder with -o for one that has other cases",
-                  folder.string(), all_lost.size(), lost->number, which, lost->seed));
+      fmt::format("{}: holds the study of another plan: {} of its pressings are not in this one, the first in the line "
+                  "\"{}\" of plan.csv. A plan may be given more values, replicates, tests and glues; choose another "
+                  "folder with -o for one that has other cases",
+                  folder.string(), lost.size(), shortened(first, 120)));
 }
 
 }  // namespace
@@ -141,7 +151,7 @@ std::string plan_text(const Plan& plan, const std::vector<PlannedItem>& items) {
 }
 
 Study write_study(const Plan& plan, const std::vector<PlannedItem>& items, const fs::path& folder) {
-  refuse_foreign_folder(folder);
+  refuse_foreign_folder(folder, plan);
   refuse_other_plan(folder, items);
   Study study{folder, plan, {}};
   for (const auto& planned : items) {
@@ -151,8 +161,8 @@ Study write_study(const Plan& plan, const std::vector<PlannedItem>& items, const
     if (files::read_text(place / "case.toml") != planned.case_text)
       files::write_atomically(place / "case.toml", planned.case_text);
   }
-  files::write_atomically(study.file("plan.toml"), plan.text);
   files::write_atomically(study.file("plan.csv"), plan_text(plan, items));
+  files::write_atomically(study.file("plan.toml"), plan.text);
   return study;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <system_error>
@@ -24,6 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 using cases::Step;
 
+constexpr double kPanelBytesPerParticle = 150;  // of a kept panel, HDF5
+
 // The base case, read again for every item with other values.
 class Base {
  public:
@@ -31,7 +34,7 @@ class Base {
     const auto& ready = cases::ready_cases();
     const auto file = plan.folder / plan.base;
     std::error_code error;
-    if (fs::exists(file, error)) {
+    if (fs::is_regular_file(file, error)) {
       file_ = file;
     } else if (std::find(ready.begin(), ready.end(), plan.base) != ready.end()) {
       text_ = cases::resolved_text(cases::ready_case(plan.base));
@@ -72,7 +75,7 @@ std::string message_on_plan(const std::string& message, const std::vector<Settin
 
 std::string name_of_item(const std::vector<Setting>& settings, int replicate) {
   std::string text = "item of replicate " + std::to_string(replicate);
-  for (const auto& setting : settings) text += fmt::format(", {} = {}", setting.key, shortened(setting.value));
+  for (const auto& setting : settings) text += fmt::format(", {} = {}", setting.key, shortened(shown(setting.value)));
   return text;
 }
 
@@ -108,9 +111,9 @@ PlannedItem plan_item(const Plan& plan, const Base& base, const std::vector<Sett
   const auto& c = formed.c;
   const auto cost = cases::estimate(c, formed.panel);
   planned.case_text = cases::resolved_text(c);
-  planned.mat = cases::case_hash(c, Step::kMat);
+  planned.mat = std::hash<std::string>{}(mat::to_text(formed.mat));
   planned.press_seconds = cost.press_s;
-  planned.disk_bytes = cost.disk_bytes;
+  planned.disk_bytes = static_cast<double>(cost.particles * c.schedule.compactions.size()) * kPanelBytesPerParticle;
   planned.solves = static_cast<int>(c.schedule.compactions.size() * c.test.compliance_t_mm_per_MPa.size());
   planned.item.hash = cases::case_hash(c, Step::kTest);
   planned.item.pressing = cases::case_hash(c, Step::kPress);
@@ -146,7 +149,7 @@ std::vector<std::string> what_is_shared(const Plan& plan, const std::vector<Plan
   std::vector<std::string> same, other;
   const auto cells = cells_of(plan);
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
-    std::set<std::string> mats;
+    std::set<std::size_t> mats;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       auto rest = cells[i];
       rest[b] = 0;
@@ -214,7 +217,8 @@ std::vector<std::string> summary_of(const Plan& plan, const std::vector<PlannedI
   lines.push_back(fmt::format("estimated time: {} of one core, {} on {}", run::duration(seconds),
                               run::duration(seconds / workers), workers));
   lines.push_back(
-      fmt::format("estimated memory: {:.0f} MB a worker; disk at most {:.0f} MB", memory / 1e6, disk / 1e6));
+      fmt::format("estimated memory: {:.0f} MB a worker; disk {:.0f} MB, next to nothing with --keep moduli",
+                  memory / 1e6, disk / 1e6));
   return lines;
 }
 

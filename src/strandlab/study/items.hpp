@@ -27,7 +27,7 @@ struct Item {
 struct PlannedItem {
   Item item;
   std::string case_text;     // the resolved case
-  std::string mat;           // hash of what the mat depends on
+  std::size_t mat = 0;       // stands for the mat within this program
   double press_seconds = 0;  // share of the pressing in item.seconds
   double disk_bytes = 0;     // of the pressing's panels
   int solves = 0;            // factorisations of the tests: states x qualities of glue

@@ -14,6 +14,8 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
+#include <iterator>
 #include <new>
 #include <optional>
 #include <thread>
@@ -91,6 +93,16 @@ struct Worker {
   } catch (...) {
     ::_exit(1);
   }
+}
+
+// A child has the thread that forks only: locks that others hold, in the libraries, would stay locked in it for ever.
+void refuse_other_threads() {
+  const auto threads = std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+  if (threads > 1)
+    throw RunError(
+        fmt::format("items are run by forked processes, and this one has {} threads: run the study from a "
+                    "process of its own, strandlab study run",
+                    threads));
 }
 
 class Runner {
@@ -284,6 +296,7 @@ int worker_count(const RunnerOptions& options, std::size_t items) {
 }
 
 std::vector<Failure> run_items(const Study& study, const RunnerOptions& options, run::Observer& observer) {
+  refuse_other_threads();
   return Runner(study, options, observer).run();
 }
 

@@ -28,8 +28,9 @@ struct Failure {
 // of memory takes no other with it, its memory comes back, and it starts at once, which a program that is started anew
 // does not. An item that another `study run` is working on is left to it, and waited for. One that fails is recorded
 // and does not stop the others; it is tried again by the next call. Returns those that failed. If this process is
-// killed its workers end with it. The calling process must have no other threads at work. Throws Cancelled, its
-// workers ended, when the observer says so, and RunError where no process can be forked.
+// killed its workers end with it. Throws Cancelled, its workers ended, when the observer says so, and RunError where no
+// process can be forked: where this one has other threads, which OpenBLAS starts at its first use unless it is told not
+// to, as the program tells it.
 std::vector<Failure> run_items(const Study& study, const RunnerOptions& options, run::Observer& observer);
 
 }  // namespace strandlab::study
