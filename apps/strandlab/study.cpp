@@ -15,7 +15,7 @@ namespace {
 
 struct StudyArguments {
   study::Command command;
-  std::string keep = "panels";
+  std::string keep = "panels", runner = "local";
   double memory_MB = 0;
 };
 
@@ -25,6 +25,7 @@ CLI::App* add_act(CLI::App& study, const char* name, const char* description, St
   auto* command = study.add_subcommand(name, description);
   command->callback([&a, act] {
     a.command.runner.keep = a.keep == "moduli" ? study::Keep::kModuli : study::Keep::kPanels;
+    a.command.slurm = a.runner == "slurm";
     a.command.runner.memory_bytes = 1e6 * a.memory_MB;
     Terminal terminal;
     act(a.command, terminal);
@@ -60,14 +61,21 @@ void add_study(CLI::App& app) {
       ->check(CLI::Range(1, 1024));
   run->add_option("--memory-MB", a.memory_MB, "that all workers may take (default: what is free)")
       ->check(CLI::PositiveNumber);
+  run->add_option("--runner", a.runner, "local, or slurm: submit an array of what is missing")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str();
   add_plan_arguments(*add_act(*study, "plan", "write plan.csv: every item, its case, its estimate", a, study::plan), a);
   auto* item = add_act(*study, "item", "run or resume one item; exit code 0 when it is whole", a, study::item);
   item->add_option("DIR", a.command.folder, "folder of the study")->required();
-  item->add_option("K", a.command.item, "number or hash of the item in plan.csv")->required();
+  item->add_option("K", a.command.items, "number or hash of the item in plan.csv; several run in turn")->required();
   item->add_option("--threads", a.command.threads, "threads (default 1)")->check(CLI::Range(1, 1024));
   add_work_arguments(*item, a);
   auto* collect = add_act(*study, "collect", "write the tables of the items that are whole", a, study::collect);
   collect->add_option("DIR", a.command.folder, "folder of the study")->required();
+  auto* list = study->add_subcommand("export", "print the items for another runner");
+  list->add_option("DIR", a.command.folder, "folder of the study")->required();
+  list->add_flag("--snakemake,!--parallel", a.command.snakemake, "a Snakefile, or a list for GNU parallel (default)");
+  list->callback([&a] { print("{}", study::list(a.command)); });
 }
 
 void add_compare(CLI::App& app) {

@@ -150,12 +150,17 @@ std::string plan_text(const Plan& plan, const std::vector<PlannedItem>& items) {
   return table.text();
 }
 
+Study study_of(const Plan& plan, const std::vector<PlannedItem>& items, const fs::path& folder) {
+  Study study{folder, plan, {}};
+  for (const auto& planned : items) study.items.push_back(planned.item);
+  return study;
+}
+
 Study write_study(const Plan& plan, const std::vector<PlannedItem>& items, const fs::path& folder) {
   refuse_foreign_folder(folder, plan);
   refuse_other_plan(folder, items);
-  Study study{folder, plan, {}};
+  auto study = study_of(plan, items, folder);
   for (const auto& planned : items) {
-    study.items.push_back(planned.item);
     const auto place = study.item_folder(planned.item);
     files::make_folder(place);
     if (files::read_text(place / "case.toml") != planned.case_text)

@@ -29,6 +29,9 @@ struct Study {
 // plan.csv as text.
 std::string plan_text(const Plan& plan, const std::vector<PlannedItem>& items);
 
+// The study that write_study() would make of the folder; nothing is written or read.
+Study study_of(const Plan& plan, const std::vector<PlannedItem>& items, const std::filesystem::path& folder);
+
 // Writes the plan into the folder, made where it is missing; a folder that holds a study is extended. Throws
 // InputError, with nothing written, for a folder that holds something else, or pressings that the new plan lacks.
 Study write_study(const Plan& plan, const std::vector<PlannedItem>& items, const std::filesystem::path& folder);
