@@ -18,6 +18,7 @@
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/report/bondline_tables.hpp"
+#include "strandlab/run/results.hpp"
 #include "terminal.hpp"
 
 namespace strandlab::app {
@@ -48,10 +49,7 @@ bondline::SpecimenTable read(const BondlineArguments& a) {
 
 void analyse(const BondlineArguments& a) {
   const auto folder = a.folder.empty() ? run::bondline_folder(a.file) : fs::path(a.folder);
-  std::error_code error;
-  if (!a.force && fs::exists(folder / "specimens.csv", error))
-    throw InputError(
-        fmt::format("{} holds results; --force overwrites them, -o names another folder", folder.string()));
+  run::refuse_results(folder / "specimens.csv", a.force);
   bondline::Options options;
   options.formula = bondline::formula_from_name(a.formula);
   options.uncertainty = a.uncertainty;

@@ -61,9 +61,8 @@ void add_study(CLI::App& app) {
       ->check(CLI::Range(1, 1024));
   run->add_option("--memory-MB", a.memory_MB, "that all workers may take (default: what is free)")
       ->check(CLI::PositiveNumber);
-  run->add_option("--runner", a.runner, "local, or slurm: submit an array of what is missing")
-      ->check(CLI::IsMember({"local", "slurm"}))
-      ->capture_default_str();
+  run->add_option("--runner", a.runner, "local (default), or slurm: submit an array of what is missing")
+      ->check(CLI::IsMember({"local", "slurm"}));
   add_plan_arguments(*add_act(*study, "plan", "write plan.csv: every item, its case, its estimate", a, study::plan), a);
   auto* item = add_act(*study, "item", "run or resume one item; exit code 0 when it is whole", a, study::item);
   item->add_option("DIR", a.command.folder, "folder of the study")->required();
@@ -79,20 +78,16 @@ void add_study(CLI::App& app) {
 }
 
 void add_compare(CLI::App& app) {
-  struct CompareArguments {
-    std::vector<std::string> runs;
-    std::string csv;
-  };
-  auto arguments = std::make_shared<CompareArguments>();
-  auto* command =
-      app.add_subcommand("compare", "moduli of finished runs: mean and interval per case, paired differences");
-  command->add_option("RUN", arguments->runs, "run folders; runs of a case with other seeds are replicates")
-      ->required();
-  command->add_option("--csv", arguments->csv, "also write a table to this file; - prints it instead");
-  command->callback([arguments] {
-    const auto comparison = study::compare_runs(arguments->runs);
-    print("{}", arguments->csv == "-" ? table_of(comparison).text() : text_of(comparison));
-    if (!arguments->csv.empty() && arguments->csv != "-") table_of(comparison).write(arguments->csv);
+  using Texts = std::vector<std::string>;
+  auto runs = std::make_shared<Texts>(), csv = std::make_shared<Texts>(1);
+  auto* command = app.add_subcommand("compare", "moduli of finished runs: mean, interval, paired differences");
+  command->add_option("RUN", *runs, "run folders; runs of a case with other seeds are replicates")->required();
+  command->add_option("--csv", csv->front(), "also write a table to this file; - prints it instead");
+  command->callback([runs, csv] {
+    const auto comparison = study::compare_runs(*runs);
+    const bool instead = csv->front() == "-";
+    print("{}", instead ? table_of(comparison).text() : text_of(comparison));
+    if (!instead && !csv->front().empty()) table_of(comparison).write(csv->front());
   });
 }
 

@@ -1,6 +1,5 @@
 // strandlab theory: closed-form estimates of a panel, without a simulation.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,17 +22,10 @@ struct TheoryArguments {
   theory::Question question;
 };
 
-// The question a case asks, with what the flags change.
 theory::Question question_of(const TheoryArguments& a) {
-  auto c = a.file.empty() ? cases::ready_case("le2010_osb") : cases::read_case(a.file, a.overrides);
   if (a.file.empty() && !a.overrides.empty()) throw InputError("--set changes keys of a case; give a case file too");
-  theory::Question q = a.question;
-  const auto mat = cases::make_mat(c);
-  if (a.compactions.empty()) cases::settle_states(c, mat);
-  q.rows = run::theory_rows(c, mat);
-  q.compactions = a.compactions.empty() ? c.schedule.compactions : a.compactions;
-  q.compliances_t = a.compliances.empty() ? c.test.compliance_t_mm_per_MPa : a.compliances;
-  for (double& compliance : q.compliances_t) compliance = std::max(compliance, 0.0);  // as the virtual tests take it
+  const auto c = a.file.empty() ? cases::ready_case("le2010_osb") : cases::read_case(a.file, a.overrides);
+  auto q = run::theory_question(c, a.question, a.compactions, a.compliances);
   // Of a case the moduli that its virtual tests are drawn beside; without one those of free bars, as published.
   const auto by_default = a.file.empty() ? wood::OffAxis::kUncoupled : c.off_axis;
   q.off_axis = a.off_axis.empty() ? by_default : wood::off_axis_from_name(a.off_axis);

@@ -1,4 +1,4 @@
-"""strandlab study and compare as a user meets them: the same tables however a study is run, killed, extended and merged."""
+"""strandlab study and compare as a user meets them: the same tables however a study is run, killed, queued, extended and merged."""
 
 import csv
 import os
@@ -166,6 +166,53 @@ def two_at_once(expected):
         check(len(tested) == 1, f"{log}: tested {len(tested)} times")
 
 
+def on_a_queue(expected):
+    """By an sbatch that takes Slurm's place: it runs the tasks of an array one after another, and then what depends on them."""
+    os.mkdir("bin")
+    pathlib.Path("bin/sbatch").write_text("""#!/bin/bash
+echo "$@" >> "$QUEUE/calls"
+script="${@: -1}"
+if [[ $script == --wrap=* ]]; then bash -c "${script#--wrap=}" > "$QUEUE/collect.log" 2>&1; echo 12; exit; fi
+tasks=$(sed -n 's/^#SBATCH --array=1-//p' "$script")
+for task in $(seq "$tasks"); do SLURM_ARRAY_TASK_ID=$task bash "$script" >> "$QUEUE/task.log" 2>&1; done
+echo "11;cluster"
+""", encoding="utf-8")
+    pathlib.Path("bin/scontrol").write_text("#!/bin/sh\necho 'MaxArraySize            = 1001'\n", encoding="utf-8")
+    for name in ("sbatch", "scontrol"):
+        os.chmod(f"bin/{name}", 0o755)
+    os.mkdir("queue")
+    environment = {**os.environ, "PATH": f"{os.getcwd()}/bin:{os.environ['PATH']}", "QUEUE": f"{os.getcwd()}/queue"}
+    dry = strandlab("study", "run", "plan.toml", "-o", "queued", "--runner", "slurm", "--dry-run", env=environment)
+    check(dry.returncode == DONE and "#SBATCH --array=1-1" in dry.stdout and "--dependency=afterany:JOB" in dry.stdout, f"dry run: {dry.stdout}")
+    check(not os.path.exists("queued") and files("queue") == {}, "a dry run writes and submits nothing")
+    submitted = strandlab("study", "run", "plan.toml", "-o", "queued", "--runner", "slurm", env=environment)
+    check(submitted.returncode == DONE and "--dependency=afterany:11 " in submitted.stdout, f"submit: {submitted.stdout}{submitted.stderr}")
+    check(tables("queued") == expected, "on a queue: the same bytes")
+    again = strandlab("study", "run", "plan.toml", "-o", "queued", "--runner", "slurm", env=environment)
+    check("nothing to submit" in again.stdout, f"nothing is left to submit: {again.stdout}")
+    check(study("export", "queued").stdout == "", "nothing is left to export")
+    if shutil.which("sbatch") is None:
+        expect_bad_input(["study", "run", "plan.toml", "-o", "nowhere", "--runner", "slurm"], ["there is no sbatch on this machine"])
+
+
+def told_to_stop(expected):
+    """SIGUSR1, as a queue sends it before the limit, leaves what the next start goes on from."""
+    study("plan", "plan.toml", "-o", "stopped")
+    stops = 0
+    for delay in (0.15, 0.3, 0.6):
+        with start("item", "stopped", *range(1, 9)) as process:
+            time.sleep(delay)
+            if process.poll() is None:
+                process.send_signal(signal.SIGUSR1)
+                stops += 1
+            process.communicate()
+        check(process.returncode in (DONE, 3, -signal.SIGUSR1), f"SIGUSR1: exit code {process.returncode}")
+    check(stops > 0, "no item was stopped")
+    study("item", "stopped", *range(1, 9))
+    study("collect", "stopped")
+    check(tables("stopped") == expected, "after SIGUSR1: the same bytes")
+
+
 def merged(expected):
     """Folders of two machines, copied into one."""
     for machine, speed in (("a", 8), ("b", 16)):
@@ -228,6 +275,8 @@ with scratch():
     killed(undisturbed)
     a_worker_that_crashes(undisturbed)
     two_at_once(undisturbed)
+    on_a_queue(undisturbed)
+    told_to_stop(undisturbed)
     merged(undisturbed)
     extended()
     bad_input()

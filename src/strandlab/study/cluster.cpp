@@ -94,11 +94,6 @@ int free_number(const fs::path& folder) {
   return number;
 }
 
-void refuse_missing_sbatch() {
-  if (answer_of("command -v sbatch").code != 0)
-    throw InputError("--runner slurm: there is no sbatch on this machine; --dry-run prints the commands for another");
-}
-
 std::string collect_command(const Study& study, const std::vector<std::string>& jobs, const std::string& program) {
   return fmt::format("sbatch --parsable --dependency=afterany:{} --job-name=study-collect --output={} --wrap={}",
                      fmt::join(jobs, ":"), quoted((study.folder / "slurm" / "collect.log").string()),
@@ -106,6 +101,11 @@ std::string collect_command(const Study& study, const std::vector<std::string>& 
 }
 
 }  // namespace
+
+void refuse_missing_sbatch() {
+  if (answer_of("command -v sbatch").code != 0)
+    throw InputError("--runner slurm: there is no sbatch on this machine; --dry-run prints the commands for another");
+}
 
 std::vector<SlurmArray> slurm_arrays(const Study& study, int largest_array) {
   std::vector<SlurmArray> arrays;
@@ -161,7 +161,6 @@ std::string slurm_script(const Study& study, const SlurmArray& array, const fs::
 void submit_to_slurm(const Study& relative, Keep keep, bool dry_run, run::Observer& observer) {
   auto study = relative;
   study.folder = fs::absolute(study.folder);  // a job may start elsewhere
-  if (!dry_run) refuse_missing_sbatch();
   const auto program = this_program();
   const auto folder = study.folder / "slurm";
   const auto arrays = slurm_arrays(study, largest_array());

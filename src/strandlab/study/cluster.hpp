@@ -30,9 +30,11 @@ std::vector<SlurmArray> slurm_arrays(const Study& study, int largest_array);
 std::string slurm_script(const Study& study, const SlurmArray& array, const std::filesystem::path& chunks,
                          const std::string& program, Keep keep);
 
+// Throws InputError, with the remedy, on a machine without sbatch.
+void refuse_missing_sbatch();
+
 // Writes scripts into slurm/ of the study's folder and submits them by sbatch, and a job that collects when all have
-// ended; a dry run tells the scripts and commands and writes nothing. Throws InputError where there is no sbatch,
-// RunError where it fails.
+// ended; a dry run tells the scripts and commands and writes nothing. Throws RunError where sbatch fails.
 void submit_to_slurm(const Study& study, Keep keep, bool dry_run, run::Observer& observer);
 
 // A line for each item that is not whole: GNU parallel's input.

@@ -73,6 +73,7 @@ void plan(const Command& command, run::Observer& observer) {
 }
 
 void run(const Command& command, run::Observer& observer) {
+  if (command.slurm && !command.dry_run) refuse_missing_sbatch();
   const auto study = planned(command, observer);
   if (command.slurm) submit_to_slurm(study, command.runner.keep, command.dry_run, observer);
   if (command.slurm || command.dry_run) return;
