@@ -18,6 +18,7 @@
 #include <iterator>
 #include <new>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
@@ -179,7 +180,7 @@ class Runner {
       if (!pressing) return Start::kBusy;
       fork_worker(item, std::move(pressing));
       return Start::kStarted;
-    } catch (const InputError& e) {
+    } catch (const std::runtime_error& e) {  // InputError or RunError
       fail(item, e.what());
       return Start::kFailed;
     }

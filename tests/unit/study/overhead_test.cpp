@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <sstream>
 #include <string>
-#include <utility>
 
 #include "child.hpp"
 #include "samples.hpp"
@@ -44,24 +43,22 @@ Cost cost_of(const Act& act) {
           processor_seconds() - before};
 }
 
-// 500 items one after another, planned, run and collected, against the same 500 panels formed, pressed and tested in
-// memory. The disk's syncs are in it.
+// 500 items, a worker of one thread per core, planned, run and collected, against the same 500 panels formed, pressed
+// and tested in memory. The disk's syncs are in it.
 TEST(StudyOverhead, NightlyOf500Items) {
   const test::TemporaryFolder folder;
   constexpr int kItems = 500;
   run::Observer nobody;
   const auto whole = cost_of([&] {
     const auto study = small_study("[axes]\npress.speed_m_s = {from = 16, to = 32, count = 500}\n", folder.path());
-    EXPECT_TRUE(run_items(study, {1, 0, Keep::kModuli}, nobody).empty());
+    EXPECT_TRUE(run_items(study, {0, 0, Keep::kModuli}, nobody).empty());
     EXPECT_EQ(collect(study).whole, 500U);
   });
   const auto study = open_study(folder / "study");
   in_another_process([&] {
     const auto work = cost_of([&] {
       for (const auto& item : study.items) {
-        auto c = read_item_case(study, item);
-        c.threads = 0;  // all cores, as a single worker has them
-        const auto formed = run::form(std::move(c));
+        const auto formed = run::form(read_item_case(study, item));  // one thread, as an item has by default
         run::test(formed, run::press(formed, nobody).panels, nobody);
       }
     });
@@ -73,7 +70,7 @@ TEST(StudyOverhead, NightlyOf500Items) {
   const double processor_ms = per_item_ms(whole.processor_s, work.processor_s);
   std::printf("beyond %.0f ms of work an item costs %.1f ms, %.1f ms of processor time\n", 1e3 * work.wall_s / kItems,
               per_item_ms(whole.wall_s, work.wall_s), processor_ms);
-  EXPECT_LT(processor_ms, 50);  // measured: MEASURED; the wall time is also that of the disk and of other programs
+  EXPECT_LT(processor_ms, 200);  // measured: 117 on two cores shared with a dozen other programs
 }
 
 }  // namespace
