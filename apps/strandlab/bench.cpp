@@ -3,9 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
-#include <thread>
 
 #include "commands.hpp"
 #include "strandlab/benchmark/text.hpp"
@@ -26,11 +24,7 @@ void add_bench(CLI::App& app) {
   command->add_option("--threads", arguments->threads, "largest thread count (default: all cores)")
       ->check(CLI::Range(1, 1024));
   command->callback([arguments] {
-    int most = arguments->threads;
-    if (most == 0) most = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    std::vector<int> counts{1};
-    for (int n = 2; n < most; n *= 2) counts.push_back(n);
-    if (most > 1) counts.push_back(most);
+    const auto counts = benchmark::thread_counts(arguments->threads);
     const auto results = benchmark::run(counts, arguments->repeats, [](const std::string& what) {
       tell(STDERR_FILENO, fmt::format("bench: {}...\n", what));
     });

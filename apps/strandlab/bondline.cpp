@@ -1,6 +1,9 @@
 // strandlab bondline: glue-line compliance 1/D_t from double-lap-shear tests, its statistics, and the design of such
 // tests.
+#include "strandlab/run/bondline.hpp"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -12,12 +15,10 @@
 #include "commands.hpp"
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/bondline/example.hpp"
-#include "strandlab/bondline/plots.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
-#include "strandlab/files/atomic_file.hpp"
 #include "strandlab/report/bondline_tables.hpp"
-#include "strandlab/report/gnuplot.hpp"
+#include "strandlab/run/results.hpp"
 #include "terminal.hpp"
 
 namespace strandlab::app {
@@ -46,40 +47,9 @@ bondline::SpecimenTable read(const BondlineArguments& a) {
   return bondline::read_specimens(a.file, bondline::Records{a.records, window});
 }
 
-// Number of pictures drawn; the first that cannot be drawn is reported, and the others are not tried.
-int draw(const std::vector<bondline::Picture>& pictures, const fs::path& folder) {
-  int drawn = 0;
-  for (const auto& picture : pictures) {
-    if (const auto problem = report::draw_script(picture.script, folder / picture.file_name)) {
-      tell(STDERR_FILENO, fmt::format("strandlab: {}\n", *problem));
-      return drawn;
-    }
-    ++drawn;
-  }
-  return drawn;
-}
-
-void write_results(const BondlineArguments& a, const bondline::Analysis& analysis, const fs::path& folder) {
-  files::make_folder(folder);
-  report::specimen_table(analysis).write(folder / "specimens.csv");
-  report::group_table(analysis).write(folder / "groups.csv");
-  report::comparison_table(analysis).write(folder / "comparisons.csv");
-  const fs::path input = a.file;
-  const fs::path json = folder / (input.stem().string() + ".json");
-  files::write_atomically(json, bondline::to_json(analysis, input.filename().string()));
-  const int plots = draw(bondline::pictures(analysis), folder);
-  print("written: {}: specimens.csv, groups.csv, comparisons.csv, {}, {} plots\n", printable(folder.string()),
-        printable(json.filename().string()), plots);
-}
-
 void analyse(const BondlineArguments& a) {
-  const fs::path input = a.file;
-  const fs::path folder =
-      a.folder.empty() ? fs::path("runs") / (input.stem().string() + "-bondline") : fs::path(a.folder);
-  std::error_code error;
-  if (!a.force && fs::exists(folder / "specimens.csv", error))
-    throw InputError(
-        fmt::format("{} holds results; --force overwrites them, -o names another folder", folder.string()));
+  const auto folder = a.folder.empty() ? run::bondline_folder(a.file) : fs::path(a.folder);
+  run::refuse_results(folder / "specimens.csv", a.force);
   bondline::Options options;
   options.formula = bondline::formula_from_name(a.formula);
   options.uncertainty = a.uncertainty;
@@ -87,7 +57,10 @@ void analyse(const BondlineArguments& a) {
   options.within = a.within;
   const auto analysis = bondline::analyse(read(a), options);
   print("{}", report::text_of(analysis));
-  write_results(a, analysis, folder);
+  const auto written = run::write(analysis, a.file, folder);
+  if (written.problem) tell(STDERR_FILENO, fmt::format("strandlab: {}\n", *written.problem));
+  print("written: {}: {}, {} plots\n", printable(folder.string()),
+        printable(fmt::format("{}", fmt::join(written.files, ", "))), written.plots);
 }
 
 void design(const BondlineArguments& a) {

@@ -11,31 +11,22 @@
 #include "terminal.hpp"
 
 namespace strandlab::app {
-namespace {
-
-struct InitArguments {
-  std::string name = "osb";
-  bool reference = false;
-};
-
-void init(const InitArguments& arguments) {
-  if (arguments.reference) {
-    print("{}", cases::reference_text());
-    return;
-  }
-  const auto c = cases::ready_case(arguments.name);
-  print("{}", cases::commented_text(c, cases::ready_case_title(arguments.name)));
-}
-
-}  // namespace
 
 void add_init(CLI::App& app) {
+  struct InitArguments {
+    std::string name = "osb";
+    bool reference = false;
+  };
   auto arguments = std::make_shared<InitArguments>();
   auto* command = app.add_subcommand("init", "print a commented case to start from");
   command->add_option("NAME", arguments->name, "ready case: " + quoted_list(cases::ready_cases()))
       ->capture_default_str();
   command->add_flag("--reference", arguments->reference, "print the reference page of all keys instead");
-  command->callback([arguments] { init(*arguments); });
+  command->callback([arguments] {
+    const auto& name = arguments->name;
+    print("{}", arguments->reference ? cases::reference_text()
+                                     : cases::commented_text(cases::ready_case(name), cases::ready_case_title(name)));
+  });
 }
 
 }  // namespace strandlab::app

@@ -67,20 +67,10 @@ int run(int argc, char** argv) {
   app.failure_message([&](const CLI::App*, const CLI::Error& e) {
     return fmt::format("{}\nRun with --help for more information.\n", shown(e.what() + list_hint(argc, argv)));
   });
-  strandlab::app::add_init(app);
-  strandlab::app::add_check(app);
-  strandlab::app::add_mat(app);
-  strandlab::app::add_press(app);
-  strandlab::app::add_test(app);
-  strandlab::app::add_run(app);
-  strandlab::app::add_report(app);
-  strandlab::app::add_movie(app);
-  strandlab::app::add_theory(app);
-  strandlab::app::add_bondline(app);
-  strandlab::app::add_hotpress(app);
-  strandlab::app::add_profile(app);
-  strandlab::app::add_bench(app);
-  strandlab::app::add_doctor(app);
+  using namespace strandlab::app;
+  for (const auto add : {add_init, add_check, add_mat, add_press, add_test, add_run, add_report, add_movie, add_theory,
+                         add_bondline, add_hotpress, add_profile, add_study, add_compare, add_bench, add_doctor})
+    add(app);
   if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);
   strandlab::mpm::instruction_set();  // STRANDLAB_ISA is refused before any file is written
   try {
@@ -88,7 +78,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     if (app.exit(e) != 0) return kBadInput;
   }
-  strandlab::app::refuse_lost_output();
+  refuse_lost_output();
   return kDone;
 }
 

@@ -6,12 +6,11 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 
 #include "commands.hpp"
-#include "strandlab/core/error.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/run/replicates.hpp"
+#include "strandlab/run/results.hpp"
 #include "terminal.hpp"
 
 namespace strandlab::app {
@@ -27,10 +26,7 @@ struct ProfileArguments {
 
 void profile_runs(const ProfileArguments& a) {
   const auto folder = a.folder.empty() ? run::profile_folder(a.question) : fs::path(a.folder);
-  std::error_code error;
-  if (!a.force && fs::exists(folder / "profile.csv", error))
-    throw InputError(
-        fmt::format("{} holds results; --force overwrites them, -o names another folder", folder.string()));
+  run::refuse_results(folder / "profile.csv", a.force);
   const auto answer = run::density_profiles(a.question);
   const auto warnings = run::write(answer, folder);
   print("{}", run::text_of(answer));

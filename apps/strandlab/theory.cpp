@@ -1,6 +1,5 @@
 // strandlab theory: closed-form estimates of a panel, without a simulation.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,7 +7,6 @@
 #include "commands.hpp"
 #include "strandlab/case/case.hpp"
 #include "strandlab/core/error.hpp"
-#include "strandlab/glue/bond.hpp"
 #include "strandlab/report/estimates.hpp"
 #include "strandlab/run/theory_rows.hpp"
 #include "strandlab/theory/estimate.hpp"
@@ -24,17 +22,10 @@ struct TheoryArguments {
   theory::Question question;
 };
 
-// The question a case asks, with what the flags change.
 theory::Question question_of(const TheoryArguments& a) {
-  auto c = a.file.empty() ? cases::ready_case("le2010_osb") : cases::read_case(a.file, a.overrides);
   if (a.file.empty() && !a.overrides.empty()) throw InputError("--set changes keys of a case; give a case file too");
-  theory::Question q = a.question;
-  const auto mat = cases::make_mat(c);
-  if (a.compactions.empty()) cases::settle_states(c, mat);
-  q.rows = run::theory_rows(c, mat);
-  q.compactions = a.compactions.empty() ? c.schedule.compactions : a.compactions;
-  q.compliances_t = a.compliances_t.empty() ? c.test.compliance_t_mm_per_MPa : a.compliances_t;
-  for (double& compliance_t : q.compliances_t) compliance_t = glue::taken(compliance_t);
+  const auto c = a.file.empty() ? cases::ready_case("le2010_osb") : cases::read_case(a.file, a.overrides);
+  auto q = run::theory_question(c, a.question, a.compactions, a.compliances_t);
   // Of a case the moduli that its virtual tests are drawn beside; without one those of free bars, as published.
   const auto by_default = a.file.empty() ? wood::OffAxis::kUncoupled : c.off_axis;
   q.off_axis = a.off_axis.empty() ? by_default : wood::off_axis_from_name(a.off_axis);

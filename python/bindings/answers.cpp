@@ -2,8 +2,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <algorithm>
 #include <string>
+#include <utility>
 
 #include "bindings.hpp"
 #include "strandlab/bondline/analysis.hpp"
@@ -31,17 +31,10 @@ py::dict cure(const cases::Case& c, const Panel<2>& panel) {
   return columns_of(table);
 }
 
-py::dict theory_of(const cases::Case& given) {
-  auto c = given;
-  const auto mat = cases::make_mat(c);
-  cases::settle_states(c, mat);
-  theory::Question q;
-  q.rows = run::theory_rows(c, mat);
-  q.compactions = c.schedule.compactions;
-  q.compliances_t = c.test.compliance_t_mm_per_MPa;
-  for (double& compliance : q.compliances_t) compliance = std::max(compliance, 0.0);  // as the virtual tests take it
-  q.off_axis = c.off_axis;
-  return columns_of(report::estimate_table(theory::estimate(q)));
+py::dict theory_of(const cases::Case& c) {
+  theory::Question question;
+  question.off_axis = c.off_axis;
+  return columns_of(report::estimate_table(theory::estimate(run::theory_question(c, std::move(question), {}, {}))));
 }
 
 py::dict hot_press(const cases::Case& c) {

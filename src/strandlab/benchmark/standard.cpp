@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "strandlab/core/members.hpp"
 #include "strandlab/mat/form.hpp"
@@ -149,6 +150,14 @@ double static_solve(const Panel<2>& panel, int elements) {
 }
 
 }  // namespace
+
+std::vector<int> thread_counts(int most) {
+  if (most == 0) most = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  std::vector<int> counts{1};
+  for (int n = 2; n < most; n *= 2) counts.push_back(n);
+  if (most > 1) counts.push_back(most);
+  return counts;
+}
 
 std::vector<Result> run(const std::vector<int>& threads, int repeats,
                         const std::function<void(const std::string&)>& say) {

@@ -28,6 +28,9 @@ struct Result {
 
 inline constexpr double kMidPress = 0.2;
 
+// 1, 2, 4... up to `most` threads, which is the last; 0: all cores.
+std::vector<int> thread_counts(int most);
+
 // Medians of `repeats` measurements for each thread count. `say` is told what is being measured.
 std::vector<Result> run(const std::vector<int>& threads, int repeats,
                         const std::function<void(const std::string&)>& say);

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/glue/bond.hpp"
 
 namespace strandlab::run {
 namespace {
@@ -63,6 +65,17 @@ std::vector<theory::Row> theory_rows(const cases::Case& c, const mat::Mat& mat) 
     rows.back().pieces = pieces_of(mat, i, woods);
   }
   return rows;
+}
+
+theory::Question theory_question(cases::Case c, theory::Question question, std::vector<double> compactions,
+                                 std::vector<double> compliances_t) {
+  const auto mat = cases::make_mat(c);
+  if (compactions.empty()) cases::settle_states(c, mat);
+  question.rows = theory_rows(c, mat);
+  question.compactions = compactions.empty() ? c.schedule.compactions : std::move(compactions);
+  question.compliances_t = compliances_t.empty() ? c.test.compliance_t_mm_per_MPa : std::move(compliances_t);
+  for (double& compliance_t : question.compliances_t) compliance_t = glue::taken(compliance_t);
+  return question;
 }
 
 }  // namespace strandlab::run

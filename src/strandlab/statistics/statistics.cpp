@@ -1,5 +1,6 @@
 #include "strandlab/statistics/statistics.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -72,6 +73,30 @@ Summary summarise(const std::vector<double>& values) {
   s.t = s.mean / error;
   s.p = two_sided_p(s.t, df);
   return s;
+}
+
+std::vector<Summary> slopes(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, int groups) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(x);
+  if (qr.rank() < x.cols()) return {};
+  const Eigen::VectorXd slope = qr.solve(y);
+  const double df = static_cast<double>(x.rows() - x.cols()) - groups;
+  const double variance = df > 0 ? (y - x * slope).squaredNorm() / df : kNaN;
+  const Eigen::MatrixXd covariance = (x.transpose() * x).inverse() * variance;
+  std::vector<Summary> result;
+  for (Eigen::Index k = 0; k < x.cols(); ++k) {
+    Summary s{static_cast<int>(x.rows()), slope[k], kNaN, kNaN, kNaN, kNaN, kNaN};
+    if (df > 0) {
+      s.sd = std::sqrt(covariance(k, k));
+      s.low = s.mean - t_975(df) * s.sd;
+      s.high = s.mean + t_975(df) * s.sd;
+      if (s.sd > 0) {
+        s.t = s.mean / s.sd;
+        s.p = two_sided_p(s.t, df);
+      }
+    }
+    result.push_back(s);
+  }
+  return result;
 }
 
 Anova anova(const std::vector<std::vector<double>>& groups) {

@@ -1,6 +1,7 @@
 // Statistics of groups of measurements: t-intervals, t-tests, one-way analysis of variance, pairs.
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 namespace strandlab::statistics {
@@ -13,6 +14,12 @@ struct Summary {
   double t = 0, p = 0;       // one-sample t-test of mean = 0, two-sided
 };
 Summary summarise(const std::vector<double>& values);
+
+// Slopes of y on the columns of x by least squares, both given as deviations from the means of `groups` groups of rows,
+// each of which has a level of its own; n is the number of rows, sd the standard error of a slope, the interval and the
+// test of slope = 0 those of Student's t with n - groups - columns degrees of freedom (NaN where there are none). Empty
+// where the columns do not determine the slopes.
+std::vector<Summary> slopes(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, int groups);
 
 // One-way analysis of variance, equal variances assumed (Fisher).
 struct Anova {

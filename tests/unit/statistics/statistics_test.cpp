@@ -110,5 +110,32 @@ TEST(Statistics, ComparisonsNeedGroups) {
   EXPECT_THROW(holm_welch_pairs({{1, 2}, {3, 3}}), InputError);
 }
 
+// Anscombe, The American Statistician 27 (1973) 17, first data set: slope .5001 with standard error .1179, t = 4.24,
+// p = .00217 (R, summary(lm(y1 ~ x1, anscombe))); df = 9.
+TEST(Statistics, SlopeOfAnscombesFirstSet) {
+  Eigen::VectorXd x(11), y(11);
+  x << 10, 8, 13, 9, 11, 14, 6, 4, 12, 7, 5;
+  y << 8.04, 6.95, 7.58, 8.81, 8.33, 9.96, 7.24, 4.26, 10.84, 4.82, 5.68;
+  x.array() -= x.mean();
+  y.array() -= y.mean();
+  const auto found = slopes(x, y, 1);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].n, 11);
+  EXPECT_NEAR(found[0].mean, 0.5001, 5e-5);
+  EXPECT_NEAR(found[0].sd, 0.1179, 5e-5);
+  EXPECT_NEAR(found[0].t, 4.241, 5e-4);
+  EXPECT_NEAR(found[0].p, 0.00217, 5e-6);
+  EXPECT_NEAR(found[0].high - found[0].mean, 2.262157 * found[0].sd, 1e-6);  // Student's t, 9 degrees of freedom
+}
+
+TEST(Statistics, NoSlopesWhereColumnsDoNotDetermineThem) {
+  Eigen::MatrixXd x(3, 2);
+  x << 1, 2, -1, -2, 0, 0;
+  EXPECT_TRUE(slopes(x, Eigen::VectorXd::Ones(3), 1).empty());
+  const auto exact = slopes(Eigen::VectorXd{{-1, 1}}, Eigen::VectorXd{{-3, 3}}, 1);  // no degree of freedom left
+  EXPECT_NEAR(exact.at(0).mean, 3, 1e-12);
+  EXPECT_TRUE(std::isnan(exact.at(0).low));
+}
+
 }  // namespace
 }  // namespace strandlab::statistics

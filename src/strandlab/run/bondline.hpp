@@ -1,0 +1,27 @@
+// Lap-shear tests from a table of specimens into a folder of results.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "strandlab/bondline/analysis.hpp"
+
+namespace strandlab::run {
+
+// runs/<table>-bondline, where the program puts results unless it is told.
+std::filesystem::path bondline_folder(const std::filesystem::path& table);
+
+struct BondLinesWritten {
+  std::vector<std::string> files;
+  int plots = 0;
+  std::optional<std::string> problem;  // why a picture could not be drawn; those behind it are not tried
+};
+
+// Makes the folder where it is missing and writes specimens.csv, groups.csv, comparisons.csv, <table>.json and plots.
+// Throws as files::write_atomically().
+BondLinesWritten write(const bondline::Analysis& analysis, const std::filesystem::path& table,
+                       const std::filesystem::path& folder);
+
+}  // namespace strandlab::run
