@@ -70,7 +70,7 @@ TEST(StudyOverhead, NightlyOf500Items) {
   const double processor_ms = per_item_ms(whole.processor_s, work.processor_s);
   std::printf("beyond %.0f ms of work an item costs %.1f ms, %.1f ms of processor time\n", 1e3 * work.wall_s / kItems,
               per_item_ms(whole.wall_s, work.wall_s), processor_ms);
-  EXPECT_LT(processor_ms, 200);  // measured: 117 on two cores shared with a dozen other programs
+  EXPECT_LT(processor_ms, 200);  // measured: 131 on two cores shared with a dozen other programs
 }
 
 }  // namespace
