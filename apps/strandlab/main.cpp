@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstddef>
 #include <exception>
 #include <new>
 #include <string>
@@ -24,17 +23,8 @@ namespace {
 
 enum Exit { kDone = 0, kBadInput = 2, kFailed = 3 };
 
-constexpr std::size_t kLongestMessage = 4000;  // bytes; values in it are shortened where they are quoted
-
-// A message on one line of the terminal, whatever the user's bytes in it.
-std::string shown(const std::string& what) {
-  if (what.size() <= kLongestMessage) return strandlab::printable(what);
-  const auto half = kLongestMessage / 2;  // what is wrong stands at the end
-  return strandlab::printable(what.substr(0, half)) + " ... " + strandlab::printable(what.substr(what.size() - half));
-}
-
 int fail(Exit code, const char* what) {
-  strandlab::app::tell(STDERR_FILENO, fmt::format("strandlab: {}\n", shown(what)));
+  strandlab::app::tell(STDERR_FILENO, fmt::format("strandlab: {}\n", strandlab::one_line(what)));
   return code;
 }
 
@@ -65,7 +55,8 @@ int run(int argc, char** argv) {
                        fmt::format("strandlab {} ({})", strandlab::version(), strandlab::run::git_commit()));
   app.require_subcommand(1);
   app.failure_message([&](const CLI::App*, const CLI::Error& e) {
-    return fmt::format("{}\nRun with --help for more information.\n", shown(e.what() + list_hint(argc, argv)));
+    return fmt::format("{}\nRun with --help for more information.\n",
+                       strandlab::one_line(e.what() + list_hint(argc, argv)));
   });
   using namespace strandlab::app;
   for (const auto add : {add_init, add_check, add_mat, add_press, add_test, add_run, add_report, add_movie, add_theory,

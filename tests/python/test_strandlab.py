@@ -186,7 +186,7 @@ class Runs(unittest.TestCase):
 
     def test_states_and_progress_are_told_and_errors_pass_through(self):
         states, steps = [], []
-        slow = small().changed({"press.speed_m_s": 8})  # long enough to be told of
+        slow = small().changed({"press.speed_m_s": 1})  # long enough to be told of
         strandlab.press(slow, on_progress=lambda step, fraction, detail: steps.append(step), on_state=states.append)
         self.assertEqual([panel.compaction for panel in states], [0, 0.1])
         self.assertEqual(set(steps), {"press"})

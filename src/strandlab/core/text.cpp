@@ -93,6 +93,13 @@ std::string shortened(std::string_view text, std::size_t characters) {
   return fmt::format("{}... ({} characters)", text.substr(0, kept), count);
 }
 
+std::string one_line(const std::string& message) {
+  constexpr std::size_t kLongest = 4000;  // values in it are shortened where they are quoted
+  if (message.size() <= kLongest) return printable(message);
+  return printable(message.substr(0, kLongest / 2)) + " ... " +
+         printable(message.substr(message.size() - kLongest / 2));
+}
+
 void refuse_binary(std::string_view bytes, const std::string& source) {
   const auto mark = bytes.substr(0, 2);
   // Without a mark: the first character, of ASCII in all our files, has a NUL beside it.

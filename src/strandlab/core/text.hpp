@@ -23,6 +23,10 @@ std::string printable(std::string_view text);
 // beginning and its length.
 std::string shortened(std::string_view text, std::size_t characters = 60);
 
+// A message on one line of a terminal, whatever the user's bytes in it; of one longer than 4000 bytes the middle is
+// left out.
+std::string one_line(const std::string& message);
+
 // Throws InputError for bytes that no text file of ours holds: UTF-16 (with a byte-order mark or without), a NUL byte.
 // `source` names the file.
 void refuse_binary(std::string_view bytes, const std::string& source);

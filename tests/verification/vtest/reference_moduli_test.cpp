@@ -19,7 +19,7 @@ constexpr const char* kMultipliers = "a perfect bond's multipliers stop where it
 
 Options options_for(const std::vector<ReferenceModulus>& reference, int elements_through) {
   Options options;
-  options.kinds = all_kinds();
+  options.kinds = kinds_on_end_planes();
   options.elements_through_strand = elements_through;
   std::set<double> compliances;
   for (const auto& r : reference) compliances.insert(r.compliance_t_mm_per_MPa);

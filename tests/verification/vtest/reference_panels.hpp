@@ -61,7 +61,7 @@ inline Panel<2> undulated_laminate(int rows, double length_mm, double amplitude_
   return panel;
 }
 
-inline const std::vector<Kind>& all_kinds() {
+inline const std::vector<Kind>& kinds_on_end_planes() {
   static const std::vector<Kind> kinds{Kind::kTension, Kind::kBendingEndRotation, Kind::kBendingEndCouple};
   return kinds;
 }
@@ -77,7 +77,7 @@ inline std::vector<ReferenceModulus> reference_moduli(const std::string& name, c
   nlohmann::json file;
   std::ifstream(std::string(STRANDLAB_TEST_DATA) + "/reference/fe_moduli.json") >> file;
   std::vector<ReferenceModulus> moduli;
-  for (const Kind kind : all_kinds()) {
+  for (const Kind kind : kinds_on_end_planes()) {
     for (const auto& [compliance, modulus] : file.at(name).at(vtest::name(kind) + variant).items()) {
       moduli.push_back({kind, std::stod(compliance), modulus.get<double>()});
     }

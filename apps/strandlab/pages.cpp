@@ -1,4 +1,5 @@
-// strandlab movie: the pressing of a run folder as a film, by ffmpeg.
+// What is made of a run folder to look at. strandlab report: its page; strandlab movie: the pressing as a film, by
+// ffmpeg.
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
@@ -6,9 +7,22 @@
 #include "commands.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/run/film.hpp"
+#include "strandlab/run/page.hpp"
 #include "terminal.hpp"
 
 namespace strandlab::app {
+
+void add_report(CLI::App& app) {
+  struct ReportArguments {
+    std::string folder, out;
+  };
+  auto arguments = std::make_shared<ReportArguments>();
+  auto* command = app.add_subcommand("report", "make report.html of a run folder again");
+  command->add_option("DIR", arguments->folder, "run folder")->required();
+  command->add_option("-o,--output", arguments->out, "file to write (default: report.html in the run folder)");
+  command->callback(
+      [arguments] { print("report: {}\n", printable(run::remake_page(arguments->folder, arguments->out).string())); });
+}
 
 void add_movie(CLI::App& app) {
   struct MovieArguments {

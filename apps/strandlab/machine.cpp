@@ -1,15 +1,19 @@
-// strandlab bench: how fast this machine is on the main job.
+// strandlab bench: how fast this machine is on the main job. strandlab doctor: what it has that strandlab can use.
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "commands.hpp"
 #include "strandlab/benchmark/text.hpp"
+#include "strandlab/core/error.hpp"
+#include "strandlab/run/doctor.hpp"
 #include "terminal.hpp"
 
 namespace strandlab::app {
+
 void add_bench(CLI::App& app) {
   struct BenchArguments {
     bool json = false;
@@ -29,6 +33,15 @@ void add_bench(CLI::App& app) {
       tell(STDERR_FILENO, fmt::format("bench: {}...\n", what));
     });
     print("{}", arguments->json ? benchmark::json_of(results) : benchmark::text_of(results));
+  });
+}
+
+void add_doctor(CLI::App& app) {
+  app.add_subcommand("doctor", "what this machine has of what strandlab can use, and a self-test")->callback([] {
+    const auto list = run::diagnose();
+    print("{}", run::text_of(list));
+    const auto wrong = [](const run::Diagnosis& d) { return d.state == run::Diagnosis::State::kBad; };
+    if (std::any_of(list.begin(), list.end(), wrong)) throw RunError("something is wrong with this build");
   });
 }
 
