@@ -128,8 +128,8 @@ void visit_strand(AnyStrand& strand, const Visit& visit) {
   visit("density_t_mm3", Label{"t/mm^3", "density at formation"}, Shape{}, &density);
   visit("stiffness_MPa", Label{"MPa", "strand axes, Voigt 11 22 33 23 13 12"}, Shape{6, 6}, stiffness.data());
   visit("yield_surface_per_MPa2", Label{"1/MPa^2", "f^2 = s^T P s, strand axes"}, Shape{6, 6}, surface.data());
-  wood::for_each_law([&]<class L>() {
-    auto& numbers = wood::part_of<L>(hardening);
+  wood::for_each_law([&visit, &parts = hardening]<class L>() {
+    auto& numbers = wood::part_of<L>(parts);
     std::decay_t<decltype(numbers)>::visit(numbers,
                                            [&](const char* name, const char* unit, const char* meaning, auto& number) {
                                              visit(name, Label{unit, meaning}, Shape{}, &number);
