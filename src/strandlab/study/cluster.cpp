@@ -69,6 +69,7 @@ std::string chunk_lines(const SlurmArray& array) {
   std::string text;
   for (const auto& chunk : array.chunks) {
     std::vector<std::string> hashes;
+    hashes.reserve(chunk.size());
     for (const auto* item : chunk) hashes.push_back(item->hash);
     text += fmt::format("{}\n", fmt::join(hashes, " "));
   }
@@ -78,7 +79,7 @@ std::string chunk_lines(const SlurmArray& array) {
 // The number of a job from what `sbatch --parsable` prints, "4711" or "4711;cluster".
 std::string submit(const std::string& command, run::Observer& observer) {
   const auto answer = answer_of(command);
-  const auto job = answer.text.substr(0, answer.text.find_first_of(";\n"));
+  auto job = answer.text.substr(0, answer.text.find_first_of(";\n"));
   const bool number = !job.empty() && job.find_first_not_of("0123456789") == std::string::npos;
   if (answer.code != 0 || !number)
     throw RunError(fmt::format("sbatch has not taken the job (exit code {}): {}", answer.code, command));

@@ -220,7 +220,7 @@ void run_claimed(const Study& study, const Item& item, const Work& work, std::op
     files::make_folder(folder);
     const Pressing pressing(folder, formed);
     if (record.tested.size() < formed.c.schedule.compactions.size())
-      press_if_needed(pressing, folder, std::move(claim), observer);
+      press_if_needed(pressing, folder, std::exchange(claim, std::nullopt), observer);
     test_states(study, item, formed, pressing, record, observer);
   }
   claim.reset();

@@ -101,6 +101,7 @@ void refuse_replicates_of_a_file(const Plan& plan, const cases::Case& c) {
 
 PlannedItem plan_item(const Plan& plan, const Base& base, const std::vector<Setting>& settings, std::uint64_t seed) {
   std::vector<std::string> overrides;
+  overrides.reserve(settings.size() + 1);
   for (const auto& setting : settings) overrides.push_back(override_of(setting));
   overrides.push_back(fmt::format("run.seed={}", seed));
   PlannedItem planned;

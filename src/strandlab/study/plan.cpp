@@ -59,7 +59,7 @@ std::string toml_of(const toml::node& node) {
 }
 
 std::string value_of(const toml::node& node, const std::string& key, const std::string& where) {
-  const auto value = toml_of(node);
+  auto value = toml_of(node);
   if (value.empty() || value.find('\n') != std::string::npos)
     fail(where, fmt::format("{}: a value is a number, a text on one line, true, false or a list of these", key));
   return value;
@@ -111,6 +111,7 @@ std::vector<std::string> range_of(const toml::table& table, const std::string& k
     values = stepped(from, to, step);
   }
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   for (const double value : values) texts.push_back(toml_of(value));
   return texts;
 }

@@ -29,6 +29,7 @@ std::vector<double> stepped(double from, double to, double step) {
 
 std::vector<double> spaced(double from, double to, int count) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) values.push_back(rounded(from + (to - from) * i / (count - 1), 12));
   return values;
 }
