@@ -25,18 +25,13 @@ struct Place {
   std::string name;
 };
 
-std::string with_name(std::string path, const std::string& name) {
-  const auto star = path.find('*');
-  return star == std::string::npos ? path : path.replace(star, 1, name);
-}
-
 // Every key that the case has, in the order of its file.
 std::vector<std::pair<std::string, Place>> places_in(const Case& c) {
   std::vector<std::pair<std::string, Place>> places;
   for (const auto& section : cases::sections()) {
     for (const auto& name : cases::instances(c, section.path)) {
       for (const auto& key : cases::keys()) {
-        if (cases::section_of(key) == section.path) places.push_back({with_name(key.path, name), {&key, name}});
+        if (cases::section_of(key) == section.path) places.push_back({cases::with_name(key.path, name), {&key, name}});
       }
     }
   }
@@ -64,10 +59,7 @@ py::object get(const Case& c, const std::string& path) {
 }
 
 std::string help(const Case& c, const std::string& path) {
-  const auto& key = *place_of(c, path).key;
-  const auto rule = cases::allowed(key, c);
-  const auto unit_and_rule = key.unit + (key.unit.empty() || rule.empty() ? "" : "; ") + rule;
-  return unit_and_rule.empty() ? key.help : fmt::format("{} ({})", key.help, unit_and_rule);
+  return cases::meaning(*place_of(c, path).key, c);
 }
 
 }  // namespace

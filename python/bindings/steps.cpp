@@ -48,10 +48,10 @@ struct TestedPanel {
   std::vector<std::string> warnings;
 };
 
-TestedPanel test_panel(const run::Formed& formed, const Panel<2>& panel, double compaction) {
+TestedPanel test_panel(const cases::Case& c, const Panel<2>& panel, double compaction) {
   PythonObserver observer{py::none()};
   const py::gil_scoped_release released;
-  TestedPanel tested{run::test(formed.c, panel, compaction, observer), {}};
+  TestedPanel tested{run::test(c, panel, compaction, observer), {}};
   tested.warnings = observer.warnings;
   return tested;
 }
@@ -101,12 +101,7 @@ void bind_steps(py::module_& module) {
       .def_property_readonly("kg_per_m2", [](const run::Formed& f) { return cases::weigh(f.c, f.mat).kg_per_m2; })
       .def("strands", [](const run::Formed& f) { return strands_of(f.mat); })
       .def("panel", [](const run::Formed& f) { return std::make_shared<Panel<2>>(f.panel); })
-      .def("text", [](const run::Formed& f) { return mat::to_text(f.mat); })
-      .def("with_case", [](const run::Formed& f, const cases::Case& c) {  // the same mat, tested otherwise
-        auto other = f;
-        other.c.test = c.test;
-        return other;
-      });
+      .def("text", [](const run::Formed& f) { return mat::to_text(f.mat); });
   module.def(
       "form", [](const cases::Case& c) { return run::form(c); }, py::arg("case"),
       py::call_guard<py::gil_scoped_release>());
@@ -124,7 +119,7 @@ void bind_steps(py::module_& module) {
                                return t.state.not_testable ? py::cast(t.state.not_testable->reason) : py::none();
                              })
       .def("slips", [](const TestedPanel& t) { return columns_of(report::slip_table(t.state.result)); });
-  module.def("test", &test_panel, py::arg("formed"), py::arg("panel"), py::arg("compaction"));
+  module.def("test", &test_panel, py::arg("case"), py::arg("panel"), py::arg("compaction"));
   module.def("moduli", &moduli, py::arg("formed"), py::arg("tested"));
   module.def("density_profile", &density_profile, py::arg("formed"), py::arg("panel"), py::arg("compaction"),
              py::arg("bins"));

@@ -82,11 +82,11 @@ class Strand:
 class Panel:
     """A panel at one compaction: strands between two platens, a section 1 mm deep."""
 
-    def __init__(self, panel: core.Panel, formed: core.Formed | None = None, case: Case | None = None, compaction: float | None = None) -> None:
+    def __init__(self, panel: core.Panel, formed: core.Formed | None, case: Case, compaction: float) -> None:
         self._core = panel
         self._formed = formed
         self.case = case
-        self.compaction: float = panel.compaction if compaction is None else compaction
+        self.compaction = compaction  # that was asked for; the pressing stopped within a time step of it
         self.strands: list[Strand] = [Strand(strand) for strand in panel.strands]
 
     @property

@@ -238,9 +238,7 @@ def _panels(pressed: Panel | Pressed | Sequence[Panel]) -> Sequence[Panel]:
 
 
 def _formed_of(panel: Panel) -> core.Formed:
-    if panel._formed is None:
-        if panel.case is None:
-            raise core.InputError("this panel comes without a case")
+    if panel._formed is None:  # read from a folder
         panel._formed = core.form(panel.case._core)
     return panel._formed
 
@@ -250,10 +248,7 @@ def test(pressed: Panel | Pressed | Sequence[Panel], case: Case | None = None) -
     panels = _panels(pressed)
     if not panels:
         raise core.InputError("there is no panel to test")
-    states = []
-    for panel in panels:
-        formed = _formed_of(panel)
-        states.append(core.test(formed if case is None else formed.with_case(case._core), panel._core, panel.compaction))
+    states = [core.test((case or panel.case)._core, panel._core, panel.compaction) for panel in panels]
     return Tested(states, core.moduli(_formed_of(panels[0]), states), panels)
 
 
@@ -266,8 +261,6 @@ def profile(panel: Panel, bins: int | None = None) -> Table:
 
 def cure(panel: Panel) -> Table:
     """Glue points of a panel: strand_a, strand_b (numbers in panel.strands), x_mm, y_mm, length_mm of glue line, gap_mm."""
-    if panel.case is None:
-        raise core.InputError("this panel comes without a case")
     return _table(core.cure(panel.case._core, panel._core))
 
 

@@ -9,18 +9,9 @@ import sys
 import tempfile
 
 BUILD, CPACK, PYTHON = sys.argv[1:]
-CASE = """[mat]
-length_mm = 5
-rows = ["surface", "core"]
-[kinds.core]
-length_mm = 2
-length_sd_mm = 0.2
-gap_mm = 1
-gap_sd_mm = 0.2
-[press]
-speed_m_s = 32
-compactions = [0, 0.02]
-"""
+# Of the installed osb.toml: four rows, 12 mm long.
+SMALL = ("mat.length_mm=12", "mat.rows=[surface,core*2,surface]", "kinds.core.gap_mm=1", "kinds.core.gap_sd_mm=0.2", "press.speed_m_s=64",
+         "press.compactions=[0,0.05]")
 
 
 def run(*command, **options):
@@ -51,20 +42,24 @@ with tempfile.TemporaryDirectory(prefix="strandlab_deb_") as name:
     for file in ("share/man/man1/strandlab.1", "share/bash-completion/completions/strandlab", "share/strandlab/cases/osb.toml"):
         if not (prefix / file).is_file():
             sys.exit(f"FAILED: the package lacks {file}")
+    completed = run("bash", "-c", f"compopt() {{ :; }}; source {prefix}/share/bash-completion/completions/strandlab; "
+                    "COMP_WORDS=(strandlab run --set press.s); COMP_CWORD=3; _strandlab; echo ${COMPREPLY[@]}")
+    if completed.split() != ["press.speed_m_s=", "press.sides=", "press.symmetric="]:
+        sys.exit(f"FAILED: bash completes --set press.s to {completed}")
     empty = folder / "empty"
     empty.mkdir()
-    (empty / "small.toml").write_text(CASE, encoding="utf-8")
     user = []
     if os.geteuid() == 0 and shutil.which("setpriv"):
         user = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
         os.chown(empty, 65534, 65534)
     environment = {key: value for key, value in os.environ.items() if key != "LD_LIBRARY_PATH"} | {"HOME": str(empty)}
-    run(*user, prefix / "bin" / "strandlab", "run", "small.toml", cwd=empty, env=environment)
-    if not (empty / "runs" / "small" / "report.html").is_file():
+    run(*user, prefix / "bin" / "strandlab", "run", prefix / "share/strandlab/cases/osb.toml", *(part for key in SMALL for part in ("--set", key)),
+        cwd=empty, env=environment)
+    if not (empty / "runs" / "osb" / "report.html").is_file():
         sys.exit("FAILED: the installed program left no report.html")
     if "python3-strandlab" in packages:
         module = prefix / "lib" / "python3" / "dist-packages"
-        told = run(*user, PYTHON, "-B", "-c", "import strandlab; print(len(strandlab.open_run('runs/small').moduli['modulus_MPa']))", cwd=empty,
+        told = run(*user, PYTHON, "-B", "-c", "import strandlab; print(len(strandlab.open_run('runs/osb').moduli['modulus_MPa']))", cwd=empty,
                    env=environment | {"PYTHONPATH": str(module)})
         if told.strip() != "20":  # two states, two tests, five glues
             sys.exit(f"FAILED: moduli read by Python: {told}")

@@ -12,6 +12,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -161,22 +162,23 @@ class Runs(unittest.TestCase):
     def test_the_mesh_is_that_of_the_points(self):
         strand = self.result.panels[-1].strands[0]
         middles = strand.corners_mm()[strand.cells()].mean(axis=1)
-        # Corners are means of what the adjacent points say, so a cell's middle is near its point: a tenth of a spacing.
-        self.assertLess(np.abs(middles - strand["position_mm"]).max(), 0.1 * min(strand.spacing_mm))
+        # Corners are means of what the adjacent points say, so a cell's middle is near its point: .0018 of a spacing was measured.
+        self.assertLess(np.abs(middles - strand["position_mm"]).max(), 0.01 * min(strand.spacing_mm))
 
     def test_the_deformation_gradient_is_not_transposed(self):
-        # A row of points along a strand: dx/ds is the first column of F.
+        # A row of points along a strand: dx/ds is the first column of F. 2e-8 was measured, and 4e-4 with the first row in its place.
         strand = self.result.panels[-1].strands[0]
         n = strand.counts[0]
         along = np.diff(strand["position_mm"][:n], axis=0) / strand.spacing_mm[0]
         column = strand["deformation_gradient"][:n, :, 0]
-        self.assertLess(np.abs(along - 0.5 * (column[1:] + column[:-1])).max(), 0.02)
-        self.assertGreater(np.abs(column[:, 1]).max(), 1e-6)
+        self.assertLess(np.abs(along - 0.5 * (column[1:] + column[:-1])).max(), 2e-7)
+        row = strand["deformation_gradient"][:n, 0, :]
+        self.assertGreater(np.abs(along - 0.5 * (row[1:] + row[:-1])).max(), 2e-5)
 
     def test_mass_of_the_density_profile_is_that_of_the_mat(self):
         profile = strandlab.profile(self.result.panels[-1])
         mean = np.mean(profile["density_kg_m3"])
-        self.assertAlmostEqual(mean * 1e-3 * self.result.panels[-1].thickness_mm, self.result.mat.kg_per_m2, delta=1e-9)
+        self.assertAlmostEqual(mean * 1e-3 * self.result.panels[-1].thickness_mm, self.result.mat.kg_per_m2, delta=1e-13)
 
     def test_other_glue_needs_no_new_pressing(self):
         stiff = strandlab.test(self.result.panels[-1], small().changed({"glue.compliance_t_mm_per_MPa": [0]})).moduli
@@ -195,6 +197,21 @@ class Runs(unittest.TestCase):
             raise KeyError("enough")
         with self.assertRaisesRegex(KeyError, "enough"):
             strandlab.press(small(), on_state=stop)
+
+    def test_other_threads_run_while_a_mat_is_pressed(self):
+        turns, done = [0], threading.Event()
+
+        def turn():
+            while not done.wait(0.001):
+                turns[0] += 1
+        other = threading.Thread(target=turn)
+        other.start()
+        before = turns[0]
+        strandlab.press(small().changed({"press.speed_m_s": 4}))
+        after = turns[0]
+        done.set()
+        other.join()
+        self.assertGreater(after - before, 10)  # a lock that is held to the end leaves one turn
 
     def test_ctrl_c_ends_a_pressing_within_a_second(self):
         case = small().changed({"press.speed_m_s": 0.05, "run.threads": 2})  # minutes long

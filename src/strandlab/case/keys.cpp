@@ -291,6 +291,11 @@ std::string name_of(const Key& key) {
   return key.path.substr(key.path.rfind('.') + 1);
 }
 
+std::string with_name(std::string path, const std::string& name) {
+  const auto star = path.find('*');
+  return star == std::string::npos ? path : path.replace(star, 1, name);
+}
+
 std::vector<std::string> instances(const Case& c, const std::string& section) {
   std::vector<std::string> names;
   if (section == "kinds.*") {
@@ -320,6 +325,12 @@ std::string allowed(const Key& key, const Case& c) {
     return fmt::format("one of {}", fmt::join(names, ", "));
   }
   return describe(key.range);
+}
+
+std::string meaning(const Key& key, const Case& c) {
+  const auto rule = allowed(key, c);
+  const auto unit_and_rule = key.unit + (key.unit.empty() || rule.empty() ? "" : "; ") + rule;
+  return unit_and_rule.empty() ? key.help : fmt::format("{} ({})", key.help, unit_and_rule);
 }
 
 std::string to_toml(const Value& value) {

@@ -37,6 +37,8 @@ const std::vector<Key>& keys();  // by section
 // The section of a key ("kinds.*" of "kinds.*.angle_deg") and its own name ("angle_deg").
 std::string section_of(const Key& key);
 std::string name_of(const Key& key);
+// A path with its * replaced: "kinds.surface" of "kinds.*".
+std::string with_name(std::string path, const std::string& name);
 // Names that stand for the * of a section in this case; {""} for a section without one, {} for those of [hotpress] in a
 // case that has none.
 std::vector<std::string> instances(const Case& c, const std::string& section);
@@ -44,6 +46,7 @@ std::vector<std::string> instances(const Case& c, const std::string& section);
 // Plain words for messages and the reference page: "a number", "greater than 0", the value as TOML.
 std::string type_name(const Value& value);
 std::string allowed(const Key& key, const Case& c);
+std::string meaning(const Key& key, const Case& c);  // its help, unit and what is allowed
 std::string to_toml(const Value& value);
 
 }  // namespace strandlab::cases

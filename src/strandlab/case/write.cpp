@@ -11,12 +11,6 @@
 namespace strandlab::cases {
 namespace {
 
-// "kinds.*" with its * replaced: "kinds.surface".
-std::string with_name(std::string path, const std::string& name) {
-  const auto star = path.find('*');
-  return star == std::string::npos ? path : path.replace(star, 1, name);
-}
-
 template <class Visit>
 void for_each_key(const std::string& section, Visit visit) {
   for (const auto& key : keys()) {
@@ -26,17 +20,6 @@ void for_each_key(const std::string& section, Visit visit) {
 
 const Section& find_section(const std::string& path) {
   return *std::find_if(sections().begin(), sections().end(), [&](const Section& s) { return s.path == path; });
-}
-
-// "mm/MPa; greater than 0", what there is of it.
-std::string unit_and_range(const Key& key, const Case& c) {
-  const auto rule = allowed(key, c);
-  return key.unit + (key.unit.empty() || rule.empty() ? "" : "; ") + rule;
-}
-
-std::string comment(const Key& key, const Case& c) {
-  const auto rule = unit_and_range(key, c);
-  return rule.empty() ? key.help : fmt::format("{} ({})", key.help, rule);
 }
 
 // [materials] has no entry in most cases: one is shown as a comment.
@@ -49,7 +32,7 @@ std::string example_material() {
   c.materials.push_back(settings);
   std::string text = fmt::format("# [materials.NAME]  # {}\n", find_section("materials.*").help);
   for_each_key("materials.*", [&](const Key& key) {
-    text += fmt::format("# {} = {}  # {}\n", name_of(key), to_toml(key.get(c, "NAME")), comment(key, c));
+    text += fmt::format("# {} = {}  # {}\n", name_of(key), to_toml(key.get(c, "NAME")), meaning(key, c));
   });
   return text + "\n";
 }
@@ -124,7 +107,7 @@ std::string commented_text(const Case& c, const std::string& title) {
       for_each_key(section.path, [&](const Key& key) {
         const auto value = key.get(c, name);
         text += fmt::format("{}{} = {}  # {}\n", is_given(value) ? "" : "# ", name_of(key), to_toml(value),
-                            comment(key, c));
+                            meaning(key, c));
       });
       text += "\n";
     }
