@@ -47,7 +47,8 @@ py::array copy_of(const std::vector<Value>& values) {
 py::dict fields_of(const py::object& self) {
   const auto& strand = self.cast<const Strand<2>&>();
   py::dict fields;
-  for_each_field<2>([&](const auto& field) { fields[field.name] = view_of(strand.points.*field.values, self); });
+  for_each_field_of<2>(strand.points,
+                       [&](const auto& field) { fields[field.name] = view_of(strand.points.*field.values, self); });
   return fields;
 }
 

@@ -31,7 +31,7 @@ Layer layer_of(const wood::Material& material, double thickness) {
   return {thickness, kMPa * material.E_R, kMPa * material.crushing.Y_R, wood::Crushing::hardening(material)};
 }
 
-Column::Column(std::vector<Layer> layers, RateEffect rate) : layers_(std::move(layers)), rate_(rate) {
+Column::Column(std::vector<Layer> layers, wood::RateEffect rate) : layers_(std::move(layers)), rate_(rate) {
   for (const auto& layer : layers_) {
     if (!(layer.thickness > 0)) throw InputError(fmt::format("a layer {} m thick cannot be pressed", layer.thickness));
     State state;
@@ -162,6 +162,13 @@ void Column::press_to(double height, double seconds) {
   }
   for (std::size_t i = 0; i < states_.size(); ++i) states_[i] = responses[i].state;
   stress_ = stress;
+}
+
+void Column::visit(Numbers& numbers) {
+  numbers(stress_);
+  for (auto& s : states_) {
+    for (auto* number : {&s.plastic, &s.elastic, &s.collapsed, &s.e, &s.g}) numbers(*number);
+  }
 }
 
 double Column::height() const {

@@ -9,17 +9,12 @@
 
 #include <vector>
 
+#include "strandlab/core/numbers.hpp"
 #include "strandlab/wood/laws/crushing.hpp"
 #include "strandlab/wood/material.hpp"
+#include "strandlab/wood/rate_effect.hpp"
 
 namespace strandlab::hotpress {
-
-// Rate dependence of yield, from straight lines of relaxation in log stress against log time: n = .04 is 8.8 % a
-// decade.
-struct RateEffect {
-  double exponent = .04;                  // n; 0: none
-  double reference = 1e-3, floor = 1e-7;  // 1/s
-};
 
 struct Layer {
   double thickness = 0;     // m, of the wood as formed, without gaps
@@ -32,7 +27,7 @@ Layer layer_of(const wood::Material& material, double thickness);
 class Column {
  public:
   // At 20 C and 12 % moisture content unless condition() follows. Throws InputError for a layer without thickness.
-  Column(std::vector<Layer> layers, RateEffect rate);
+  Column(std::vector<Layer> layers, wood::RateEffect rate);
 
   // Wood of the given factors before the first load.
   void condition(const std::vector<double>& stiffness, const std::vector<double>& yield);
@@ -45,6 +40,8 @@ class Column {
   // RunError where no stress up to 10 GPa reaches the height.
   void press_to(double height, double seconds);
   void load(double stress, double seconds);
+
+  void visit(Numbers& numbers);  // its state
 
   double stress() const { return stress_; }  // Pa
   double height() const;                     // m
@@ -68,7 +65,7 @@ class Column {
 
   std::vector<Layer> layers_;
   std::vector<State> states_;
-  RateEffect rate_;
+  wood::RateEffect rate_;
   double stress_ = 0;
 };
 

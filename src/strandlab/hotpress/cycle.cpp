@@ -3,19 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
+#include <memory>
+#include <span>
 
 #include "strandlab/core/error.hpp"
 
 namespace strandlab::hotpress {
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFineStep = .05, kFineFor = 2;   // s, after the press begins to open: pressure is gone within a second
 constexpr double kOpenStep = .25;                 // s, after that
 constexpr double kHottest = 220, kWettest = .25;  // C and kg/kg, up to where the isotherm was measured or is trusted
+constexpr double kNearTarget = 1e-4;              // of the height: a target counts as reached
 constexpr double kTightest = 1e-15;               // m^2
 
 // The wood of a cell: its thickness as formed, and the material at its middle.
@@ -47,66 +49,83 @@ void refuse(bool bad, const std::string& message) {
 
 // The mat's size, where it can be pressed as the settings say.
 MatSize checked_size(const Settings& s, const PressedMat& pressed) {
-  const auto mat = size_of(pressed);
+  auto mat = size_of(pressed);
+  if (s.mechanics == Mechanics::kStrands) mat.solid_thickness = mat.thickness;  // it is touched at its highest strand
   refuse(!(mat.dry_mass > 0), "the mat has no mass to press");
   refuse(s.cells < 2 || s.cells > 1000, fmt::format("{} cells through the mat; there must be from 2 to 1000", s.cells));
   refuse(!(s.step > 0), fmt::format("a time step of {} s; it must be greater than 0", s.step));
   if (s.log) return mat;
   check_targets(s.schedule, mat);
-  if (s.mechanics == Mechanics::kColumn) return mat;
+  if (s.mechanics != Mechanics::kUniform) return mat;
   for (const auto& phase : s.schedule)
     refuse(phase.pressure.has_value(),
            fmt::format("phase \"{}\": pressure needs mechanics = \"column\"; a uniform mat has none", phase.text));
   return mat;
 }
 
-// Where the press shall go in a step: to a height (m), or under a pressure (Pa) that may not close it below a stop.
-struct Move {
-  bool by_pressure = false;
-  double height = 0, pressure = 0, stop = 0;
+// A move as the schedule has it; the pressure is that of the platens, gas and wood together.
+struct Aim {
+  Move move;
+  double pressure = 0;  // Pa
 };
 
 enum class Faces { kPlatens, kBottomPlaten, kOpen };
 
+std::vector<Layer> layers_of(const std::vector<CellWood>& wood) {
+  std::vector<Layer> all;
+  for (const auto& cell : wood) all.push_back(layer_of(*cell.material, cell.thickness));
+  return all;
+}
+
+std::unique_ptr<MatMechanics> mechanics_of(const Settings& s, const PressedMat& mat) {
+  const auto size = checked_size(s, mat);
+  if (s.mechanics == Mechanics::kUniform) return std::make_unique<UniformMechanics>(size.solid_thickness, s.cells);
+  return std::make_unique<ColumnMechanics>(layers_of(cut(mat, size.dry_mass, s.cells)), s.rate, s.softening);
+}
+
 class Press {
  public:
-  Press(const Settings& settings, const PressedMat& mat)
+  Press(const Settings& settings, const PressedMat& mat, MatMechanics& mechanics, const Watch& watch)
       : s_(settings),
         size_(checked_size(settings, mat)),
-        wood_(cut(mat, size_.dry_mass, settings.cells)),
-        column_(layers(), settings.rate),
+        mechanics_(mechanics),
+        watch_(watch),
+        thickness_(mechanics.thickness()),
         solver_(make_solver()) {
     out_.settings = s_;
     out_.mat = size_;
-    cure_face_.assign(wood_.size(), 0);
-    cure_core_.assign(wood_.size(), 0);
-    const auto [e, g] = factors();
-    column_.condition(e, g);
+    cure_face_.assign(s_.cells, 0);
+    cure_core_.assign(s_.cells, 0);
+    mechanics_.condition(solver_.state());
+    list_stages();
+  }
+
+  // Goes on from a state that a watch was given.
+  void resume(const std::vector<double>& state) {
+    Numbers numbers(state);
+    visit(numbers);
+    within_stage_ = true;
   }
 
   Cycle run() {
-    if (s_.log) {
-      follow_log();
-    } else {
-      preheat();
-      for (const auto& phase : s_.schedule) follow(phase);
+    for (; stage_ < stages_.size(); ++stage_) {
+      if (!within_stage_) enter();
+      within_stage_ = false;
+      stages_[stage_].follow();
+      if (stages_[stage_].mark != nullptr) mark(stages_[stage_].mark);
     }
     if (!out_.record.empty() && out_.record.back().mark.empty()) mark("opened");
-    out_.thickness_unloaded = s_.mechanics == Mechanics::kColumn ? column_.height_unloaded() : height();
+    out_.thickness_unloaded = mechanics_.height_unloaded();
     const auto drift = solver_.drift();
     for (int row = 0; row < 3; ++row)
       out_.worst_balance[row] = std::max(solver_.worst_balance_error()[row], std::abs(drift[row]));
+    warn_of_targets();
     warn_of_extremes();
     return std::move(out_);
   }
 
  private:
   // ---- the mat ----
-  std::vector<Layer> layers() const {
-    std::vector<Layer> all;
-    for (const auto& cell : wood_) all.push_back(layer_of(*cell.material, cell.thickness));
-    return all;
-  }
   double mass_fraction(std::size_t cell) const { return (static_cast<double>(cell) + .5) / s_.cells; }
   bool is_face(std::size_t cell) const {
     const double at = mass_fraction(cell);
@@ -118,24 +137,20 @@ class Press {
     const double core = std::max(0., std::min(high, 1 - s_.face_fraction) - std::max(low, s_.face_fraction)) * s_.cells;
     return s_.moisture_face + std::clamp(core, 0., 1.) * (s_.moisture_core - s_.moisture_face);
   }
-  transfer::Solver make_solver() {
+  transfer::Solver make_solver() const {
     const auto& k = s_.constants;
     transfer::Grid grid;
     grid.rows = s_.cells;
-    grid.dry_mass.assign(wood_.size(), size_.dry_mass / s_.cells);
+    grid.dry_mass.assign(s_.cells, size_.dry_mass / s_.cells);
     std::vector<transfer::CellState> state;
-    for (std::size_t i = 0; i < wood_.size(); ++i) {
+    for (std::size_t i = 0; i < thickness_.size(); ++i) {
       const double T = k.ambient_temperature, M = moisture(i);
       const double vapour = transfer::relative_pressure(k, T, M) * transfer::saturation_pressure(T);
       state.push_back({T, M, k.ambient_pressure - vapour});
     }
-    thickness_ = s_.mechanics == Mechanics::kColumn ? column_.thickness() : uniform(size_.solid_thickness);
     transfer::Conditions start;
     start.thickness = thickness_;
     return {k, grid, state, start};
-  }
-  std::vector<double> uniform(double height) const {
-    return std::vector<double>(wood_.size(), height / static_cast<double>(wood_.size()));
   }
   double height() const {
     double sum = 0;
@@ -148,14 +163,6 @@ class Press {
     for (int i = 0; i < s_.cells; ++i) sum += thickness_[i] * gas(i);
     return sum / height();
   }
-  std::pair<std::vector<double>, std::vector<double>> factors() const {
-    std::vector<double> e, g;
-    for (const auto& cell : solver_.state()) {
-      e.push_back(stiffness_factor(s_.softening, cell.T, cell.M));
-      g.push_back(yield_factor(s_.softening, cell.T, cell.M));
-    }
-    return {e, g};
-  }
 
   // ---- one step ----
   double step_at(double since_opening) const {
@@ -165,31 +172,6 @@ class Press {
     return std::min(base, since_opening < kFineFor - 1e-9 ? kFineStep : kOpenStep);
   }
   double now() const { return start_ + solver_.time(); }
-
-  // Moves the column; the platens push and never pull. Returns whether they touch the mat.
-  bool move_column(const Move& move, double seconds) {
-    const auto [e, g] = factors();
-    column_.soften(e, g);
-    const double gas_pressure = gas_mean();
-    const auto before = column_;
-    if (move.by_pressure) {
-      column_.load(move.pressure - gas_pressure, seconds);
-      const double least = std::max(move.stop, before.height() - s_.fastest * seconds);
-      limited_ = column_.height() < least;
-      stopped_ = limited_ && least == move.stop;
-      if (limited_) {
-        column_ = before;
-        column_.press_to(least, seconds);
-      }
-      return true;
-    }
-    limited_ = stopped_ = false;
-    column_.load(-gas_pressure, seconds);
-    if (column_.height() <= move.height) return false;
-    column_ = before;
-    column_.press_to(move.height, seconds);
-    return true;
-  }
 
   transfer::Conditions conditions(double time, double begin, double end, const std::vector<double>& before,
                                   const std::vector<double>& after, Faces faces) const {
@@ -204,7 +186,7 @@ class Press {
   }
 
   void cure(const std::vector<transfer::CellState>& before, double seconds) {
-    for (std::size_t i = 0; i < wood_.size(); ++i) {
+    for (std::size_t i = 0; i < before.size(); ++i) {
       const double T = .5 * (before[i].T + solver_.state()[i].T);
       cure_face_[i] = transfer::cured(s_.resin_face, cure_face_[i], T, seconds);
       cure_core_[i] = transfer::cured(s_.resin_core, cure_core_[i], T, seconds);
@@ -212,34 +194,41 @@ class Press {
   }
 
   // Mechanics with the temperatures at the start of the step, then heat and moisture, then cure.
-  void step(double seconds, const Move& move, Faces faces, const std::string& phase) {
+  void step(double seconds, Aim aim, Faces faces, const std::string& phase) {
     const auto before = thickness_;
-    if (s_.mechanics == Mechanics::kColumn) {
-      if (faces != Faces::kBottomPlaten && !move_column(move, seconds)) faces = Faces::kOpen;
-      thickness_ = column_.thickness();
-    } else if (!move.by_pressure) {
-      thickness_ = uniform(move.height);
+    limited_ = stopped_ = false;
+    if (faces != Faces::kBottomPlaten) {
+      aim.move.gas = gas_mean();
+      aim.move.stress = aim.pressure - aim.move.gas;
+      aim.move.fastest = s_.fastest;
+      const auto moved = mechanics_.move(aim.move, solver_.state(), seconds);
+      limited_ = moved.limited;
+      stopped_ = moved.at_stop;
+      if (!moved.touches) faces = Faces::kOpen;
     }
+    thickness_ = mechanics_.thickness();
     const auto state = solver_.state();
     const double begin = solver_.time(), end = begin + seconds;
     const auto after = thickness_;
     solver_.step(seconds, [&](double t) { return conditions(t, begin, end, before, after, faces); });
     cure(state, seconds);
-    record(move, faces, phase);
+    record(aim, faces, phase);
+    if (watch_.step) watch_.step(out_.record.back(), [this] { return state_now(); });
   }
 
-  void record(const Move& move, Faces faces, const std::string& phase) {
+  void record(const Aim& aim, Faces faces, const std::string& phase) {
     Instant at;
     at.time = now();
     at.phase = phase;
     at.thickness = height();
-    at.gap = faces == Faces::kOpen && !move.by_pressure ? move.height : at.thickness;
+    at.gap = faces == Faces::kOpen && !aim.move.by_pressure ? aim.move.height : at.thickness;
     at.gas_mean = gas_mean();
-    const bool column = s_.mechanics == Mechanics::kColumn;
-    at.stress = column ? column_.stress() : kNothing;
+    at.stress = mechanics_.stress();
     at.pressure = at.stress + at.gas_mean;
-    if (column && move.by_pressure && !limited_) at.pressure = move.pressure;
-    if (column && faces == Faces::kOpen) at.pressure = 0;
+    if (!std::isnan(at.stress)) {
+      if (aim.move.by_pressure && !limited_) at.pressure = aim.pressure;
+      if (faces == Faces::kOpen) at.pressure = 0;
+    }
     at.platen_top = interpolated(s_.platen_top, at.time);
     at.platen_bottom = interpolated(s_.platen_bottom, at.time);
     at.heat = solver_.received()[transfer::kEnergy];
@@ -257,107 +246,129 @@ class Press {
 
   // ---- phases ----
   // Steps up to a time (since first contact), or until a stop is reached where that ends the phase.
-  void march(double to, const std::string& phase, Faces faces, const std::function<Move(double)>& move,
-             bool ends_at_stop, bool opening) {
-    const double begin = now();
-    stopped_ = false;
+  void march(double to, const std::string& phase, Faces faces, const std::function<Aim(double)>& aim, bool ends_at_stop,
+             bool opening) {
     while (now() < to - 1e-9 && !(ends_at_stop && stopped_)) {
-      double seconds = step_at(opening ? now() - begin : -1);
-      if (now() + seconds > to - 1e-6 * seconds) seconds = to - now();
-      step(seconds, move(now() + seconds), faces, phase);
+      double seconds = step_at(opening ? now() - begin_.time : -1);
+      const double closing = (height() - aim(now() + seconds).move.height) / seconds;
+      if (!aim(to).move.by_pressure) seconds = std::min(seconds, mechanics_.longest_step(closing));
+      const bool last = now() + seconds > to - 1e-6 * seconds;
+      if (last) seconds = to - now();
+      auto next = aim(now() + seconds);
+      next.move.last = last;
+      step(seconds, next, faces, phase);
     }
+  }
+  static Aim to_height(double height, double final_height) {
+    Aim aim;
+    aim.move.height = height;
+    aim.move.final_height = final_height;
+    return aim;
+  }
+  static Aim under_pressure(double pressure, double stop = 0) {
+    Aim aim;
+    aim.move.by_pressure = true;
+    aim.move.stop = stop;
+    aim.pressure = pressure;
+    return aim;
   }
   void mark(const char* what) {
     if (!out_.record.empty()) out_.record.back().mark = what;
   }
   double pressure_now() const { return out_.record.empty() ? 0 : out_.record.back().pressure; }
 
+  // What a stage begins with.
+  void enter() {
+    stopped_ = false;
+    begin_ = {now(), height(), pressure_now()};
+  }
+
+  void list_stages() {
+    if (s_.log) return list_log();
+    if (s_.bottom_lead > 0) {
+      start_ = -s_.bottom_lead;
+      stages_.push_back({[this] { preheat(); }, nullptr});
+    }
+    for (const auto& phase : s_.schedule) {
+      const char* mark = phase.kind == Phase::Kind::kClose  ? "closed"
+                         : phase.kind == Phase::Kind::kHold ? "held"
+                                                            : nullptr;
+      stages_.push_back({[this, phase] { follow(phase); }, mark});
+    }
+  }
+
   // The bottom platen is hot and under the mat before the press closes; the top is open to the room.
   void preheat() {
-    if (!(s_.bottom_lead > 0)) return;
-    start_ = -s_.bottom_lead;
-    const double h = height();
     march(
-        0, "lead", Faces::kBottomPlaten,
-        [h](double) {
-          return Move{false, h};
-        },
-        false, false);
+        0, "lead", Faces::kBottomPlaten, [this](double) { return to_height(begin_.height, begin_.height); }, false,
+        false);
   }
 
   void follow(const Phase& phase) {
     using Kind = Phase::Kind;
     if (phase.kind == Kind::kClose) return close(phase);
-    const double begin = now(), end = phase.until ? *phase.until : begin + *phase.seconds;
+    const double begin = begin_.time, end = phase.until ? *phase.until : begin + *phase.seconds;
     if (!(end > begin)) {
       throw InputError(
           fmt::format("phase \"{}\": phases overlap: it ends at {:g} s, but the one before it took until {:g} s",
                       phase.text, end, begin));
     }
-    const double height_now = height();
+    const auto stay = [this](double) { return to_height(begin_.height, begin_.height); };
     if (phase.kind == Kind::kHold) {
       const double stop = phase.target ? thickness_of(*phase.target, size_) : 0;
-      const double pressure = phase.pressure.value_or(0);
-      march(
-          end, "hold", Faces::kPlatens,
-          [&](double) {
-            return Move{phase.pressure.has_value(), height_now, pressure, stop};
-          },
-          false, false);
-      return mark("held");
+      const auto press = [&](double) { return under_pressure(*phase.pressure, stop); };
+      if (phase.pressure) return march(end, "hold", Faces::kPlatens, press, false, false);
+      return march(end, "hold", Faces::kPlatens, stay, false, false);
     }
     if (s_.mechanics == Mechanics::kUniform) {
-      const auto faces = phase.kind == Kind::kVent ? Faces::kPlatens : Faces::kOpen;
-      return march(
-          end, phase.kind == Kind::kVent ? "vent" : "open", faces,
-          [&](double) {
-            return Move{false, height_now};
-          },
-          false, true);
+      const bool vents = phase.kind == Kind::kVent;
+      return march(end, vents ? "vent" : "open", vents ? Faces::kPlatens : Faces::kOpen, stay, false, true);
     }
     if (phase.kind == Kind::kOpen)
       return march(
-          end, "open", Faces::kOpen, [](double) { return Move{true}; }, false, true);
-    const double from = pressure_now();
+          end, "open", Faces::kOpen, [](double) { return under_pressure(0); }, false, true);
     march(
         end, "vent", Faces::kPlatens,
-        [&](double t) {
-          return Move{true, 0, from * std::max(0., (end - t) / (end - begin))};
-        },
-        false, true);
+        [&](double t) { return under_pressure(begin_.pressure * std::max(0., (end - t) / (end - begin))); }, false,
+        true);
   }
 
   void close(const Phase& phase) {
-    const double begin = now(), from = height(), to = thickness_of(*phase.target, size_);
+    const double begin = begin_.time, from = begin_.height, to = thickness_of(*phase.target, size_);
     const double end = phase.until     ? *phase.until
                        : phase.seconds ? begin + *phase.seconds
                                        : begin + std::abs(from - to) / *phase.speed;
     if (phase.pressure) {
       march(
-          end, "close", Faces::kPlatens,
-          [&](double) {
-            return Move{true, 0, *phase.pressure, to};
-          },
-          true, false);
-      if (!stopped_) {
-        out_.warnings.push_back(fmt::format(
-            "phase \"{}\": never reached its target: {:.4g} mm at {:g} s, not {:.4g} mm; more pressure, more time or a "
-            "hotter, moister mat would close it",
-            phase.text, 1e3 * height(), now(), 1e3 * to));
-      }
+          end, "close", Faces::kPlatens, [&](double) { return under_pressure(*phase.pressure, to); }, true, false);
     } else {
       march(
           end, "close", Faces::kPlatens,
-          [&](double t) {
-            return Move{false, from + (to - from) * (t - begin) / (end - begin)};
-          },
-          false, false);
+          [&](double t) { return to_height(from + (to - from) * (t - begin) / (end - begin), to); }, false, false);
     }
-    mark("closed");
+  }
+
+  // Phases of closing under pressure that ended short of their targets.
+  void warn_of_targets() {
+    if (s_.log) return;
+    auto closed = out_.record.begin();
+    for (const auto& phase : s_.schedule) {
+      if (phase.kind != Phase::Kind::kClose) continue;
+      closed = std::find_if(closed, out_.record.end(), [](const Instant& i) { return i.mark == "closed"; });
+      if (closed == out_.record.end()) return;
+      const double to = thickness_of(*phase.target, size_);
+      if (phase.pressure && closed->thickness > to * (1 + kNearTarget)) {
+        out_.warnings.push_back(fmt::format(
+            "phase \"{}\": never reached its target: {:.4g} mm at {:g} s, not {:.4g} mm; more pressure, more time or a "
+            "hotter, moister mat would close it",
+            phase.text, 1e3 * closed->thickness, closed->time, 1e3 * to));
+      }
+      ++closed;
+    }
   }
 
   // ---- a log ----
-  void follow_log() {
+  void list_log() {
     const auto& log = *s_.log;
     const bool by_position = !log.position.empty();
     if (!by_position && s_.mechanics == Mechanics::kUniform)
@@ -372,15 +383,17 @@ class Press {
     if (!log.platen_top.empty()) s_.platen_top = shifted(log.platen_top);
     if (!log.platen_bottom.empty()) s_.platen_bottom = shifted(log.platen_bottom);
     out_.log_start = contact;
-    const auto [closed, released] = ends_of_hold(path, by_position);
-    const auto move = [&](double t) {
-      return by_position ? Move{false, interpolated(path, t)} : Move{true, 0, std::max(0., interpolated(path, t))};
+    const auto ends = ends_of_hold(path, by_position);
+    const auto aim = [path, by_position](double t) {
+      const double value = interpolated(path, t);
+      return by_position ? to_height(value, value) : under_pressure(std::max(0., value));
     };
-    march(closed, "close", Faces::kPlatens, move, false, false);
-    mark("closed");
-    march(released, "hold", Faces::kPlatens, move, false, false);
-    mark("held");
-    march(path.back().at, "open", Faces::kPlatens, move, false, true);
+    const auto stage = [this, aim](double end, const char* phase, bool opening, const char* mark) {
+      stages_.push_back({[=, this] { march(end, phase, Faces::kPlatens, aim, false, opening); }, mark});
+    };
+    stage(ends.first, "close", false, "closed");
+    stage(ends.second, "hold", false, "held");
+    stage(path.back().at, "open", true, nullptr);
   }
 
   // When the gap is first that of the mat's wood.
@@ -449,13 +462,64 @@ class Press {
     }
   }
 
+  // ---- its state ----
+  std::vector<double> state_now() {
+    Numbers numbers;
+    visit(numbers);
+    return numbers.list();
+  }
+  void visit(Numbers& numbers) {
+    solver_.visit(numbers);
+    mechanics_.visit(numbers);
+    numbers(thickness_);
+    numbers(cure_face_);
+    numbers(cure_core_);
+    numbers(stage_);
+    numbers(begin_.time);
+    numbers(begin_.height);
+    numbers(begin_.pressure);
+    numbers(limited_);
+    numbers(stopped_);
+    numbers.each(out_.record, [&](Instant& at) { visit_instant(numbers, at); });
+  }
+  static void visit_word(Numbers& numbers, std::string& word, std::span<const char* const> words) {
+    auto index = std::find(words.begin(), words.end(), word) - words.begin();
+    numbers(index);
+    if (numbers.reads()) word = words[static_cast<std::size_t>(index)];
+  }
+  static void visit_instant(Numbers& numbers, Instant& at) {
+    static constexpr std::array kPhases{"lead", "close", "hold", "vent", "open"};
+    static constexpr std::array kMarks{"", "closed", "held", "opened"};
+    visit_word(numbers, at.phase, kPhases);
+    visit_word(numbers, at.mark, kMarks);
+    for (auto* number : {&at.time, &at.thickness, &at.gap, &at.pressure, &at.stress, &at.platen_top, &at.platen_bottom,
+                         &at.gas_mean, &at.heat, &at.water_out})
+      numbers(*number);
+    numbers.each(at.cells, [&numbers](CellReading& cell) {
+      for (auto* number : {&cell.depth, &cell.T, &cell.M, &cell.gas, &cell.density, &cell.cure_face, &cell.cure_core})
+        numbers(*number);
+      numbers(cell.face);
+    });
+  }
+
+  struct Stage {
+    std::function<void()> follow;
+    const char* mark;  // at its end
+  };
+
   Settings s_;
   MatSize size_;
-  std::vector<CellWood> wood_;
-  Column column_;
+  MatMechanics& mechanics_;
+  Watch watch_;
   std::vector<double> thickness_;
   transfer::Solver solver_;
   std::vector<double> cure_face_, cure_core_;
+  std::vector<Stage> stages_;
+  std::size_t stage_ = 0;
+  bool within_stage_ = false;  // going on in the middle of one
+  struct {
+    double time = 0, height = 0, pressure = 0;
+  } begin_;                                 // of the stage
   double start_ = 0;                        // s, of the solver's clock since first contact
   bool limited_ = false, stopped_ = false;  // a pressure that was not held: closing too fast, or at its stop
   Cycle out_;
@@ -475,7 +539,15 @@ MatSize size_of(const PressedMat& mat) {
 }
 
 Cycle press_hot(const Settings& settings, const PressedMat& mat) {
-  return Press(settings, mat).run();
+  const auto mechanics = mechanics_of(settings, mat);
+  return press_hot(settings, mat, *mechanics, {}, {});
+}
+
+Cycle press_hot(const Settings& settings, const PressedMat& mat, MatMechanics& mechanics, const Watch& watch,
+                const std::vector<double>& resume) {
+  Press press(settings, mat, mechanics, watch);
+  if (!resume.empty()) press.resume(resume);
+  return press.run();
 }
 
 }  // namespace strandlab::hotpress

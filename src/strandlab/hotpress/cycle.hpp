@@ -2,12 +2,14 @@
 // crushed, resin cures, the press opens. Units are SI as in transfer/properties.hpp; times count from first contact.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "strandlab/hotpress/column.hpp"
 #include "strandlab/hotpress/log.hpp"
+#include "strandlab/hotpress/mechanics.hpp"
 #include "strandlab/hotpress/schedule.hpp"
 #include "strandlab/hotpress/softening.hpp"
 #include "strandlab/transfer/cure.hpp"
@@ -15,9 +17,9 @@
 
 namespace strandlab::hotpress {
 
-// How the mat resists: as a column of its layers without gaps (column.hpp), or not at all, its density the same
-// everywhere at all times, so that the press is moved by position only.
-enum class Mechanics { kColumn, kUniform };
+// How the mat resists: as a column of its layers without gaps (column.hpp); not at all, its density the same everywhere
+// at all times, so that the press is moved by position only; or strand by strand (strands.hpp).
+enum class Mechanics { kColumn, kUniform, kStrands };
 
 // Wood of one material, bottom to top.
 struct MatLayer {
@@ -43,7 +45,7 @@ struct Settings {
   double contact = 2000, room = 15;                 // W/(m^2 K), heat transfer from platens and to the room
   double bond_strength = .17e6;  // Pa, of a hot bond fully cured: half of the internal bond of EN 300; judgement
   transfer::Resin resin_face = transfer::resins()[0], resin_core = transfer::resins()[1];
-  RateEffect rate;
+  wood::RateEffect rate;
   Softening softening;
   transfer::Constants constants;
 };
@@ -84,8 +86,18 @@ struct Cycle {
   std::vector<std::string> warnings;
 };
 
-// Presses the mat. Throws InputError for a schedule or settings that cannot be followed, RunError where the solution
-// fails.
+// Presses the mat, as a column or of uniform density. Throws InputError for a schedule or settings that cannot be
+// followed, RunError where the solution fails.
 Cycle press_hot(const Settings& settings, const PressedMat& mat);
+
+// Who watches a cycle. What it throws ends the cycle.
+struct Watch {
+  // After every step. state() is the whole state of the cycle, its mechanics included, to go on from.
+  std::function<void(const Instant& now, const std::function<std::vector<double>()>& state)> step;
+};
+
+// The same with the mat's mechanics of one's own, from the start or from a state that a watch was given.
+Cycle press_hot(const Settings& settings, const PressedMat& mat, MatMechanics& mechanics, const Watch& watch,
+                const std::vector<double>& resume = {});
 
 }  // namespace strandlab::hotpress

@@ -66,7 +66,8 @@ void visit_engine(State& state, const Visit& visit) {
   auto& [step, time, time_step, bottom, top, energies, unconverged_contacts] = state;
   auto& [bottom_position, bottom_velocity] = bottom;
   auto& [top_position, top_velocity] = top;
-  auto& [kinetic, elastic, plastic, friction, contact, filter, platen_work, external_work] = energies;
+  auto& [kinetic, elastic, plastic, friction, contact, filter, softening, damping, platen_work, external_work] =
+      energies;
   visit("step", Label{"1", "steps taken"}, step);
   visit("time_s", Label{"s", "time since the start"}, time);
   visit("time_step_s", Label{"s", "last time step"}, time_step);
@@ -80,6 +81,8 @@ void visit_engine(State& state, const Visit& visit) {
   visit("friction_mJ", Label{"mJ", "dissipated by friction"}, friction);
   visit("contact_mJ", Label{"mJ", "lost in inelastic contact"}, contact);
   visit("filter_mJ", Label{"mJ", "lost to the velocity filter"}, filter);
+  visit("softening_mJ", Label{"mJ", "lost as wood under stress got softer or stiffer"}, softening);
+  visit("damping_mJ", Label{"mJ", "taken by damping"}, damping);
   visit("platen_work_mJ", Label{"mJ", "work of the platens"}, platen_work);
   visit("external_work_mJ", Label{"mJ", "work of tractions and gravity"}, external_work);
   visit("unconverged_contacts", Label{"1", "nodes whose contact still changed after the last pass, over all steps"},
@@ -232,7 +235,7 @@ template <int Dim>
 void write_points(Writer& out, const Panel<Dim>& panel) {
   hsize_t total = 0;
   for (const auto& strand : panel.strands) total += strand.lattice.size();
-  for_each_field<Dim>([&](const auto& field) {
+  for_each_field_of<Dim>(pattern_of_points(panel), [&](const auto& field) {
     if (!field.kept) return;
     const Shape shape = shape_of(field);
     std::vector<double> values;
@@ -320,10 +323,12 @@ template <int Dim>
 void read_points(const Reader& in, Panel<Dim>& panel) {
   const hsize_t total = checked_total(in, panel);
   for_each_field<Dim>([&](const auto& field) {
+    const std::string name = std::string("/panel/points/") + field.name;
+    if (field.optional && !in.has(name)) return;
     for (auto& strand : panel.strands) set_zero(strand.points.*field.values, strand.lattice.size());
     if (!field.kept) return;
     const Shape shape = shape_of(field);
-    const auto values = in.doubles(std::string("/panel/points/") + field.name, with_count(total, shape));
+    const auto values = in.doubles(name, with_count(total, shape));
     const double* next = values.data();
     for (auto& strand : panel.strands) {
       for (auto& value : strand.points.*field.values) {

@@ -105,7 +105,7 @@ std::string cell_data(const Panel<Dim>& panel) {
   const auto id = single<std::int32_t>([](auto s, const auto&, auto) { return s; });
   const auto row = single<std::int32_t>([](auto, const auto& strand, auto) { return strand.row; });
   std::string shown;
-  for_each_shown_field<Dim>([&](const auto& field) {
+  for_each_shown_field<Dim>(pattern_of_points(panel), [&](const auto& field) {
     const auto value = [&](auto, const auto& strand, auto p) { return (strand.points.*field.values)[p]; };
     shown += array(field.name, per_point<float>(panel, single<float>(value)));
   });

@@ -11,7 +11,8 @@
 
 namespace strandlab {
 
-// State of the material points of a strand, in the order of its lattice. Every list is as long as x.
+// State of the material points of a strand, in the order of its lattice. Every list is as long as x, but those of an
+// optional field may be empty, in all strands of a panel alike: wood that has not been in a hot press.
 template <int Dim>
 struct Points {
   std::vector<Vec<Dim>> x;      // mm, positions now
@@ -19,6 +20,11 @@ struct Points {
   std::vector<Tensor<Dim>> F;   // deformation gradient since formation, from the lattice's axes
   std::vector<Voigt> stress;    // MPa, Kirchhoff, strand axes convected with the strand (along = F a0)
   std::vector<double> plastic;  // history of yielding: alpha, accumulated plastic strain, or x where the wood crushes
+
+  // Optional.
+  std::vector<double> stiffness_factor, yield_factor;  // over those at 20 C and 12 % moisture content
+  std::vector<double> temperature, moisture;           // C, kg/kg
+  std::vector<double> gas, cure;                       // kPa above the room's; degree of cure of the strand's resin
 
   std::size_t size() const { return x.size(); }
 };
@@ -39,8 +45,9 @@ struct PointField {
   const char* description;
   Resampled resampled;
   Lumped lumped;
-  bool kept;   // in checkpoints and panel files; else it is zero when one is read
-  bool shown;  // a scalar: in ParaView files and the report's colourings
+  bool kept;              // in checkpoints and panel files; else it is zero when one is read
+  bool shown;             // a scalar: in ParaView files and the report's colourings
+  bool optional = false;  // its lists may be empty
 
   static constexpr bool kScalar = std::is_same_v<Value, double>;
   // Rank of the tensor whose numbers a value holds: 0, 1 (also six of Voigt's order) or 2.
@@ -81,6 +88,20 @@ constexpr auto point_fields() {
           &P::plastic, "plastic_strain", "1",
           "accumulated plastic strain alpha; collapsed part of the volume x where the strand crushes", Resampled::kHeld,
           Lumped::kMean, true, true},
+      PointField<Dim, double>{&P::stiffness_factor, "stiffness_factor", "1",
+                              "elastic moduli over those at 20 C and 12 % moisture content", Resampled::kHeld,
+                              Lumped::kMean, true, false, true},
+      PointField<Dim, double>{&P::yield_factor, "yield_factor", "1",
+                              "yield stresses over those at 20 C and 12 % moisture content", Resampled::kHeld,
+                              Lumped::kMean, true, true, true},
+      PointField<Dim, double>{&P::temperature, "temperature_C", "C", "temperature", Resampled::kHeld, Lumped::kMean,
+                              true, true, true},
+      PointField<Dim, double>{&P::moisture, "moisture_content", "kg/kg", "water per oven-dry wood", Resampled::kHeld,
+                              Lumped::kMean, true, true, true},
+      PointField<Dim, double>{&P::gas, "gas_pressure_kPa", "kPa", "gas pressure above the room's", Resampled::kHeld,
+                              Lumped::kMean, true, true, true},
+      PointField<Dim, double>{&P::cure, "degree_of_cure", "1", "of the resin that the strand carries", Resampled::kHeld,
+                              Lumped::kMean, true, true, true},
   };
 }
 
@@ -93,10 +114,18 @@ void for_each_field(const Visit& visit) {
   std::apply([&](const auto&... field) { (visit(field), ...); }, point_fields<Dim>());
 }
 
-// The same for the fields that are shown as they are, all of them scalars.
+// The same for the fields that these points have.
 template <int Dim, class Visit>
-void for_each_shown_field(const Visit& visit) {
+void for_each_field_of(const Points<Dim>& points, const Visit& visit) {
   for_each_field<Dim>([&](const auto& field) {
+    if (!field.optional || !(points.*field.values).empty()) visit(field);
+  });
+}
+
+// The same for those that are shown as they are, all of them scalars.
+template <int Dim, class Visit>
+void for_each_shown_field(const Points<Dim>& points, const Visit& visit) {
+  for_each_field_of<Dim>(points, [&](const auto& field) {
     if constexpr (std::decay_t<decltype(field)>::kScalar) {
       if (field.shown) visit(field);
     }
@@ -113,7 +142,9 @@ void set_zero(std::vector<Value>& values, std::size_t size) {
 template <int Dim>
 Points<Dim> formed_points(const Lattice<Dim>& lattice, const Placement<Dim>& placement) {
   Points<Dim> points;
-  for_each_field<Dim>([&](const auto& field) { set_zero(points.*field.values, lattice.size()); });
+  for_each_field<Dim>([&](const auto& field) {
+    if (!field.optional) set_zero(points.*field.values, lattice.size());
+  });
   points.x = positions(lattice, placement);
   points.F.assign(lattice.size(), placement.axes);
   return points;

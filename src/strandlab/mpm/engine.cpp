@@ -60,6 +60,8 @@ struct Engine<Dim>::Impl {
   Loads<Dim> loads;
   VelocityFilter filter;
   bool has_platens = false;
+  wood::RateEffect rate{.exponent = 0};
+  double seconds_per_second = 1;
   EngineState state;
   double first_time_step = 0;
   std::array<double, 3> furthest{};  // cells that a particle moved at most in the last step, per axis
@@ -115,6 +117,8 @@ struct Engine<Dim>::Impl {
     for (int a = 0; a < Dim; ++a) step.inverse_cell[a] = 1 / step.cell[a];
     step.dt = state.time_step_s;
     step.transit = state.time_step_s / options.courant;
+    step.rate = {rate.exponent, rate.floor / rate.reference, std::pow(rate.floor / rate.reference, rate.exponent),
+                 1 / (seconds_per_second * state.time_step_s * rate.reference)};
     step.platen[0] = {has_platens, state.bottom.position, state.bottom.velocity};
     step.platen[1] = {has_platens, state.top.position, state.top.velocity};
     return step;
@@ -334,7 +338,27 @@ void Engine<Dim>::set_springs(const std::vector<Spring<Dim>>& springs) {
 }
 template <int Dim>
 void Engine<Dim>::scale_velocities(double factor) {
+  impl_->state.energies.damping += (1 - factor * factor) * kinetic_energy(impl_->bodies);
   mpm::scale_velocities(impl_->bodies, factor);
+}
+template <int Dim>
+void Engine<Dim>::soften(int body, const std::vector<double>& stiffness, const std::vector<double>& yield) {
+  if (body < 0 || body >= static_cast<int>(impl_->bodies.size()))
+    throw InputError(fmt::format("softening of body {}, which is not there", body));
+  auto& particles = impl_->bodies[static_cast<std::size_t>(body)];
+  if (particles.condition.size() == 0)
+    throw InputError(fmt::format("softening of {}, whose points have no factors", particles.name));
+  const std::size_t count = particles.where.size();
+  if (stiffness.size() != count || yield.size() != count) {
+    throw InputError(fmt::format("softening of {}: {} and {} factors for {} particles", particles.name,
+                                 stiffness.size(), yield.size(), count));
+  }
+  impl_->state.energies.softening += mpm::soften(particles, stiffness, yield);
+}
+template <int Dim>
+void Engine<Dim>::set_rate_effect(const wood::RateEffect& effect, double seconds_per_second) {
+  impl_->rate = effect;
+  impl_->seconds_per_second = seconds_per_second;
 }
 template <int Dim>
 void Engine<Dim>::resume(const EngineState& state) {

@@ -12,6 +12,7 @@
 #include "strandlab/mpm/spring.hpp"
 #include "strandlab/mpm/state.hpp"
 #include "strandlab/panel/panel.hpp"
+#include "strandlab/wood/rate_effect.hpp"
 
 namespace strandlab::mpm {
 
@@ -62,7 +63,15 @@ class Engine {
   // not know them: it must be below 2/omega of a spring between two nodes. Throws InputError for a body or particle
   // that is not there, a normal that is no unit vector, or a negative area or stiffness.
   void set_springs(const std::vector<Spring<Dim>>& springs);
-  void scale_velocities(double factor);   // of all particles: 0 stops them, 1 - alpha dt drags on them
+  void scale_velocities(double factor);  // of all particles: 0 stops them, 1 - alpha dt drags on them
+  // The wood of a body gets softer or stiffer: factors of stiffness and of yield over those of its material, by
+  // particle. Where it gets softer its elastic strain stays and its stress falls; where it gets stiffer its stress
+  // stays, and the elastic strain that this no longer needs is locked in. Throws InputError for a body that is not
+  // there, whose points had no factors from the start, or other numbers of them.
+  void soften(int body, const std::vector<double>& stiffness, const std::vector<double>& yield);
+  // Yield of such bodies follows the rate of plastic strain, a second of the engine standing for so many seconds. None
+  // unless set.
+  void set_rate_effect(const wood::RateEffect& effect, double seconds_per_second);
   void resume(const EngineState& state);  // state of a run whose bodies were given to the constructor
 
   // One time step. Throws RunError (step, time, body, position) when a particle leaves the grid, inverts (det F <= 0)

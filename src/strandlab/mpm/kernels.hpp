@@ -41,6 +41,9 @@ struct Step {
     int present;
     double position, velocity;
   } platen[2];  // bottom, top
+  struct {
+    double exponent, floor, least, per_strain;  // as in wood::Conditioned
+  } rate;
 };
 inline constexpr int kNoWall = 1 << 30;
 
@@ -71,7 +74,9 @@ struct BodyView {
   double reach[Dim];      // mm, at formation: furthest offset of a face point from its particle
   const wood::YieldModes<4>* modes4;
   const wood::YieldModes<6>* modes6;
-  wood::Law law;  // that holds
+  wood::Law law;            // that holds
+  const double* condition;  // per block a pack of factors of stiffness, then one of yield; null: wood as measured
+  double Y_R;               // MPa
   Patch patch;
   Patch mirror[2];  // nodes of its mirror images in the bottom and top platens; height 0: far away
   int faces;

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
 #include "strandlab/core/error.hpp"
 
 namespace strandlab::mpm {
@@ -32,6 +36,21 @@ void fill(const Body<Dim>& input, Particles<Dim>& body) {
       d[C::plastic(body.components) * kBlock] = points.plastic[p];
     }
   }
+}
+
+// Factors of the points, padding as in the particles' blocks.
+template <int Dim>
+void set_condition(const std::vector<double>& stiffness, const std::vector<double>& yield, Particles<Dim>& body) {
+  body.condition.resize(static_cast<std::size_t>(body.blocks) * 2 * kBlock);
+  for (int b = 0; b < body.blocks; ++b) {
+    double* factors = body.condition.data() + static_cast<std::size_t>(b) * 2 * kBlock;
+    for (int l = 0; l < kBlock; ++l) {
+      const int p = body.particle[b * kBlock + std::min<int>(l, body.lanes[b] - 1)];
+      factors[l] = stiffness[p];
+      factors[kBlock + l] = yield[p];
+    }
+  }
+  body.stiffest = *std::max_element(stiffness.begin(), stiffness.end());
 }
 
 // The points of a face in packs of eight, tile by tile. `tiles`: of this body, in the order of tile_of.
@@ -100,6 +119,8 @@ Particles<Dim> store_particles(const Body<Dim>& input, int number, std::vector<C
     tiles.push_back({tile, order[t].colour});
   }
   fill(input, body);
+  if (!input.points.stiffness_factor.empty())
+    set_condition(input.points.stiffness_factor, input.points.yield_factor, body);
   kernels<Dim>().set_radius(view_of_wood(body), body.blocks);  // in the bits of the build that will use it
   for (const auto& face : input.faces) add_face(face, tile_of, tiles.data() + first_tile, order.size(), body);
   return body;
@@ -113,6 +134,8 @@ BodyView<Dim> view_of_wood(Particles<Dim>& body) {
   v.modes4 = &body.modes4;
   v.modes6 = &body.modes6;
   v.law = body.material.law();
+  v.condition = body.condition.size() > 0 ? body.condition.data() : nullptr;
+  v.Y_R = 1 / std::sqrt(body.material.yield_surface(2, 2));
   return v;
 }
 
@@ -127,6 +150,12 @@ void copy_out(const Particles<Dim>& body, Points<Dim>& points) {
     for (int k = 0; k < body.components; ++k) points.stress[p][wood::kModeToVoigt[k]] = d[(C::stress + k) * kBlock];
     points.plastic[p] = d[C::plastic(body.components) * kBlock];
   });
+  if (body.condition.size() == 0) return;
+  for (std::size_t p = 0; p < body.where.size(); ++p) {
+    const double* factors = body.condition.data() + body.condition_at(body.where[p]);
+    points.stiffness_factor[p] = factors[0];
+    points.yield_factor[p] = factors[kBlock];
+  }
 }
 
 template <int Dim>
@@ -157,7 +186,7 @@ double kinetic_energy(const std::vector<Particles<Dim>>& bodies) {
 
 namespace {
 
-// Elastic energy per reference volume, MPa: half the square of the stress in the modes.
+// Elastic energy per reference volume of wood as measured, MPa: half the square of the stress in the modes.
 template <int N>
 double stored(const wood::YieldModes<N>& m, const double* stress) {
   double sum = 0;
@@ -169,18 +198,70 @@ double stored(const wood::YieldModes<N>& m, const double* stress) {
   return sum;
 }
 
+// The same of a particle, from its x component.
+template <int Dim>
+double stored(const Particles<Dim>& body, const double* d) {
+  const double* stress = d + Component<Dim>::stress * kBlock;
+  return body.components == 4 ? stored<4>(body.modes4, stress) : stored<6>(body.modes6, stress);
+}
+
+// ln J_e of wood as measured: the sum of the elastic strains along the axes.
+template <int N>
+double elastic_volume(const wood::YieldModes<N>& m, const double* stress) {
+  double sum = 0;
+  for (int i = 0; i < N; ++i) {
+    double z = 0;
+    for (int j = 0; j < N; ++j) z += m.to_modes[i][j] * stress[j * kBlock];
+    sum += m.volume[i] * z;
+  }
+  return sum;
+}
+
+// The history variable of a particle whose stiffness grew under its stress.
+template <int Dim>
+double locked_in(const Particles<Dim>& body, const double* d, double stiffness) {
+  using C = Component<Dim>;
+  const double* stress = d + C::stress * kBlock;
+  const auto& laws = body.components == 4 ? body.modes4.laws : body.modes6.laws;
+  const double volume =
+      body.components == 4 ? elastic_volume<4>(body.modes4, stress) : elastic_volume<6>(body.modes6, stress);
+  return wood::with_law(body.material.law(), [&]<class L>() {
+    return L::locked_in(wood::part_of<L>(laws), d[C::plastic(body.components) * kBlock],
+                        body.deformation(d).determinant(), volume / stiffness);
+  });
+}
+
 }  // namespace
 
 template <int Dim>
-double elastic_energy(const std::vector<Particles<Dim>>& bodies) {
+double soften(Particles<Dim>& body, const std::vector<double>& stiffness, const std::vector<double>& yield) {
   using C = Component<Dim>;
+  double lost = 0;
+  bool hardened = false;
+  for (std::size_t p = 0; p < body.where.size(); ++p) {
+    double* d = body.data.data() + body.where[p];
+    const double before = body.condition.data()[body.condition_at(body.where[p])], now = stiffness[p];
+    if (now == before) continue;
+    const double ratio = now < before ? now / before : before / now;
+    lost += stored(body, d) / before * (1 - ratio);
+    if (now < before) {
+      for (int k = 0; k < body.components; ++k) d[(C::stress + k) * kBlock] *= ratio;
+    } else {
+      d[C::plastic(body.components) * kBlock] = locked_in(body, d, now);
+      hardened = true;
+    }
+  }
+  set_condition(stiffness, yield, body);
+  if (hardened) kernels<Dim>().set_radius(view_of_wood(body), body.blocks);
+  return body.volume() * lost;
+}
+
+template <int Dim>
+double elastic_energy(const std::vector<Particles<Dim>>& bodies) {
   double total = 0;
   for (const auto& body : bodies) {
     double sum = 0;
-    body.each([&](int, const Vec<Dim>&, const double* d) {
-      sum += body.components == 4 ? stored<4>(body.modes4, d + C::stress * kBlock)
-                                  : stored<6>(body.modes6, d + C::stress * kBlock);
-    });
+    body.each([&](int, const Vec<Dim>&, const double* d) { sum += stored(body, d) / body.stiffness_factor(d); });
     total += body.volume() * sum;
   }
   return total;
@@ -225,7 +306,8 @@ template <int Dim>
 std::size_t bytes(const std::vector<Particles<Dim>>& bodies) {
   std::size_t total = 0;
   for (const auto& body : bodies) {
-    total += body.data.bytes() + body.lanes.size() + (body.particle.size() + body.where.size()) * sizeof(int);
+    total += body.data.bytes() + body.condition.bytes() + body.lanes.size() +
+             (body.particle.size() + body.where.size()) * sizeof(int);
     for (const auto& face : body.faces)
       total += face.where.size() * sizeof(int) + face.offset.bytes() + face.area.bytes();
   }
@@ -236,6 +318,7 @@ template Particles<2> store_particles(const Body<2>&, int, std::vector<ColouredT
 template BodyView<2> view_of_wood(Particles<2>&);
 template void copy_out(const Particles<2>&, Points<2>&);
 template void scale_velocities(std::vector<Particles<2>>&, double);
+template double soften(Particles<2>&, const std::vector<double>&, const std::vector<double>&);
 template double kinetic_energy(const std::vector<Particles<2>>&);
 template double elastic_energy(const std::vector<Particles<2>>&);
 template double mean_motion_energy(const std::vector<Particles<2>>&);
@@ -246,6 +329,7 @@ template Particles<3> store_particles(const Body<3>&, int, std::vector<ColouredT
 template BodyView<3> view_of_wood(Particles<3>&);
 template void copy_out(const Particles<3>&, Points<3>&);
 template void scale_velocities(std::vector<Particles<3>>&, double);
+template double soften(Particles<3>&, const std::vector<double>&, const std::vector<double>&);
 template double kinetic_energy(const std::vector<Particles<3>>&);
 template double elastic_energy(const std::vector<Particles<3>>&);
 template double mean_motion_energy(const std::vector<Particles<3>>&);

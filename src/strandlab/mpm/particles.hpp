@@ -26,6 +26,8 @@ struct Particles {
   Vec<Dim> spacing;  // mm, a particle's domain at formation
   int blocks = 0;
   AlignedArray data;                 // blocks of particles
+  AlignedArray condition;            // per block a pack of factors of stiffness, then one of yield; empty: as measured
+  double stiffest = 1;               // largest of these factors of stiffness
   std::vector<unsigned char> lanes;  // real particles per block
   std::vector<int> particle;         // number in the Body of each lane, -1 for padding
   std::vector<int> where;            // for each number in the Body: offset of its x in data
@@ -39,6 +41,15 @@ struct Particles {
   // Of one particle.
   double volume() const { return spacing.prod(); }
   double mass() const { return material.density * spacing.prod(); }
+
+  // Factors of stiffness and yield of a particle in `condition`; its x component is at `x_at` in data.
+  std::size_t condition_at(int x_at) const {
+    const int block = C::count(components) * kBlock;
+    return static_cast<std::size_t>(x_at / block) * 2 * kBlock + static_cast<std::size_t>(x_at % block);
+  }
+  double stiffness_factor(const double* x) const {
+    return condition.size() == 0 ? 1 : condition.data()[condition_at(static_cast<int>(x - data.data()))];
+  }
 
   const double* block(int b) const { return data.data() + static_cast<std::size_t>(b) * C::count(components) * kBlock; }
 
@@ -92,6 +103,10 @@ void copy_out(const Particles<Dim>& body, Points<Dim>& points);
 
 template <int Dim>
 void scale_velocities(std::vector<Particles<Dim>>& bodies, double factor);
+
+// Engine::soften for one body. Returns the energy that the wood loses, mJ.
+template <int Dim>
+double soften(Particles<Dim>& body, const std::vector<double>& stiffness, const std::vector<double>& yield);
 
 // Of all bodies now.
 template <int Dim>

@@ -25,6 +25,8 @@ struct Energies {
   // changes of velocity, 1/2 sum m |dv|^2, which is larger on the grid than on the particles that take them up; and the
   // difference of the work of forces, on the mean velocity of a step, and of stresses, on its last.
   double filter = 0;
+  double softening = 0;      // lost as wood under stress gets softer, or stiffer (Engine::soften)
+  double damping = 0;        // taken by Engine::scale_velocities
   double platen_work = 0;    // done by the platens on the bodies
   double external_work = 0;  // done by tractions and gravity
 };
@@ -52,8 +54,9 @@ auto members(S& platen) {
 template <class S>
 requires std::same_as<std::remove_const_t<S>, Energies>
 auto members(S& energies) {
-  auto& [kinetic, elastic, plastic, friction, contact, filter, platen_work, external_work] = energies;
-  return std::tie(kinetic, elastic, plastic, friction, contact, filter, platen_work, external_work);
+  auto& [kinetic, elastic, plastic, friction, contact, filter, softening, damping, platen_work, external_work] =
+      energies;
+  return std::tie(kinetic, elastic, plastic, friction, contact, filter, softening, damping, platen_work, external_work);
 }
 template <class S>
 requires std::same_as<std::remove_const_t<S>, EngineState>

@@ -43,7 +43,8 @@ StepLimit<Dim> step_limit(const std::vector<Particles<Dim>>& bodies, const Step<
       const double* d = body.block(b);
       const Eigen::Matrix3d axes = strand_axes<Dim>(body.deformation(d));
       for (int a = 0; a < Dim; ++a) {
-        const double stiffness = acoustic_stiffness(body.material.stiffness, axes.row(Dim == 2 ? 2 * a : a));
+        const double stiffness =
+            body.stiffest * acoustic_stiffness(body.material.stiffness, axes.row(Dim == 2 ? 2 * a : a));
         double pressure = 0;
         for (int k = 0; k < body.components; ++k) pressure = std::max(pressure, std::abs(d[(C::stress + k) * kBlock]));
         const double speed =

@@ -15,7 +15,8 @@ Strand<2> lumped(const Strand<2>& fine, double spacing_along_mm, int points_thro
                            std::min(points_through, counts[1])};
   const auto& [along, through] = coarse.lattice.counts;
   coarse.lattice.spacing = {length / along, thickness / through};
-  for_each_field<2>([&](const auto& field) { set_zero(coarse.points.*field.values, coarse.lattice.size()); });
+  for_each_field_of<2>(fine.points,
+                       [&](const auto& field) { set_zero(coarse.points.*field.values, coarse.lattice.size()); });
   const auto at_corners = corners(fine);
   const Vec<2> step(static_cast<double>(counts[0]) / along, static_cast<double>(counts[1]) / through);
   for (std::size_t p = 0; p < coarse.lattice.size(); ++p) {
@@ -29,7 +30,7 @@ Strand<2> lumped(const Strand<2>& fine, double spacing_along_mm, int points_thro
     coarse.points.F[p].col(1) = (c + d - a - b) / (2 * coarse.lattice.spacing[1]);
     for_each_covered(fine.lattice, low, high, [&](std::size_t q, double weight) {
       const double share = weight / (step[0] * step[1]);
-      for_each_field<2>([&](const auto& field) {
+      for_each_field_of<2>(fine.points, [&](const auto& field) {
         if (field.lumped == Lumped::kMean) {
           (coarse.points.*field.values)[p] += share * (fine.points.*field.values)[q];
         }

@@ -51,6 +51,13 @@ struct Panel {
   double compaction() const { return 1 - thickness_mm() / initial_thickness_mm; }
 };
 
+// Points as the panel's strands have them: which optional fields there are (lattice/points.hpp).
+template <int Dim>
+const Points<Dim>& pattern_of_points(const Panel<Dim>& panel) {
+  static const Points<Dim> none;
+  return panel.strands.empty() ? none : panel.strands.front().points;
+}
+
 // The kind that a layer's role names, and the wood of one of its strands: the strand's own where the mat names one,
 // else its kind's. `layer` counts from 0, for messages. Throw InputError for an unknown role or material, with the
 // nearest known one.

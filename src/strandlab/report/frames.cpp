@@ -40,8 +40,8 @@ std::string label_of(std::string name, const std::string& unit) {
   return name;
 }
 
-// What can be read off the points, and the fields of theirs that are shown as they are.
-std::vector<Field> colourings() {
+// What can be read off points as these are, and the fields of theirs that are shown as they are.
+std::vector<Field> colourings(const Points<2>& points) {
   const auto stress = [](const Strand<2>& s, std::size_t p) {
     return cauchy_stress<2>(s.points.F[p], s.points.stress[p]);
   };
@@ -49,7 +49,7 @@ std::vector<Field> colourings() {
                              [](const Strand<2>& s, std::size_t p) { return grain_angle_deg<2>(s.points.F[p]); }},
                             {"density_kg_m3", "Density", "kg/m³", 0, false,
                              [](const Strand<2>& s, std::size_t p) { return density_kg_m3(s, p); }}};
-  for_each_shown_field<2>([&](const auto& field) {
+  for_each_shown_field<2>(points, [&](const auto& field) {
     const std::string unit = field.unit == std::string_view("1") ? "" : field.unit;
     fields.push_back({field.name, label_of(field.name, unit), unit, 3, false,
                       [field](const Strand<2>& s, std::size_t p) { return (s.points.*field.values)[p]; }});
@@ -190,7 +190,7 @@ Json pack_frames(const std::vector<Panel<2>>& frames, const glue::CuringOptions&
   packed["length_mm"] = frames[0].length_mm;
   packed["initial_thickness_mm"] = frames[0].initial_thickness_mm;
   packed["strands"] = describe_strands(frames[0]);
-  const auto fields = colourings();
+  const auto fields = colourings(pattern_of_points(frames[0]));
   std::vector<Range> ranges;
   for (const auto& field : fields) {
     ranges.push_back(range_of(frames, field));

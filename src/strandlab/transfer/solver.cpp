@@ -121,6 +121,18 @@ Solver::Solver(Constants constants, Grid grid, std::vector<CellState> start, con
   start_ = content();
 }
 
+void Solver::visit(Numbers& numbers) {
+  for (auto& cell : state_) {
+    for (auto* number : {&cell.T, &cell.M, &cell.p_a}) numbers(*number);
+  }
+  numbers(thickness_);
+  for (auto& held : holds_) numbers(held);
+  numbers(time_);
+  for (auto* amounts : {&start_, &received_, &error_, &worst_error_}) {
+    for (auto& amount : *amounts) numbers(amount);
+  }
+}
+
 void Solver::step(double seconds, const ConditionsAt& conditions) {
   step_in_parts(seconds, conditions, 0);
 }

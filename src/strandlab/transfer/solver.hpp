@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "strandlab/core/numbers.hpp"
 #include "strandlab/transfer/balance.hpp"
 
 namespace strandlab::transfer {
@@ -62,6 +63,8 @@ class Solver {
   // From time() to time() + seconds, in halves (and so on) where Newton's method does not converge. Throws RunError
   // where that does not help, or a balance is off.
   void step(double seconds, const ConditionsAt& conditions);
+
+  void visit(Numbers& numbers);  // its state
 
   double time() const { return time_; }  // s
   const Constants& constants() const { return constants_; }

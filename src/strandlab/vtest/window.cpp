@@ -54,7 +54,7 @@ Strand<2> resampled(const Strand<2>& strand, const Part& part) {
   cut.lattice.counts[0] = std::max(1, static_cast<int>(std::lround(part.to - part.from)));
   const double step = (part.to - part.from) / cut.lattice.counts[0];  // in columns of the strand
   cut.lattice.spacing[0] = lattice.spacing[0] * step;
-  for_each_field<2>([&](const auto& field) {
+  for_each_field_of<2>(strand.points, [&](const auto& field) {
     auto& values = cut.points.*field.values;
     set_zero(values, cut.lattice.size());
     for (std::size_t p = 0; p < values.size(); ++p) {

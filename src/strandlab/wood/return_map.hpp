@@ -21,13 +21,36 @@ struct YieldModes {
   LawRules laws;            // how it hardens: that of the law that holds
 };
 
-// The flow mu from trial modes z: z_i(mu) = z_i/(1 + mu lambda_i). d = 1/(1 + mu lambda).
-template <class L, class Ops, int N, class T>
-[[gnu::always_inline]] inline Flow<T> flow_at(const YieldModes<N>& m, const T (&z)[N], const T (&d)[N], const T& mu) {
+// Wood at 20 C and 12 % whose yield knows no rate.
+template <class T>
+struct AsMeasured {
+  static constexpr bool kConditioned = false;
+};
+
+// Wood that is softer or stiffer, by heat and moisture, and yields at a higher stress the faster it is crushed:
+//   C0 -> e C0,   yield at f = g radius rate,   rate = (max(speed, floor)/reference)^n
+// where speed = mu q/Y_R / (time that the step stands for) is that of the plastic strain.
+template <class T>
+struct Conditioned {
+  static constexpr bool kConditioned = true;
+  T e, g;             // factors of stiffness and of yield
+  T strain;           // about the size of the step's strain: where the search for mu begins
+  double exponent;    // n; 0: yield knows no rate
+  double floor;       // over the reference
+  double least;       // (floor/reference)^n
+  double Y_R;         // MPa
+  double per_strain;  // speed over the reference that a plastic strain of 1 in this step would have
+};
+
+// The flow mu from trial modes z: z_i(mu) = z_i/(1 + mu e lambda_i). d = 1/(1 + mu e lambda).
+template <class L, class Ops, int N, class T, class Condition>
+[[gnu::always_inline]] inline Flow<T> flow_at(const YieldModes<N>& m, const Condition& condition, const T (&z)[N],
+                                              const T (&d)[N], const T& mu) {
   T s2 = T{}, s3 = T{}, s4 = T{}, volume = T{}, dvolume = T{};
   for (int i = 0; i < N; ++i) {
     const T zi = z[i] * d[i];
-    const T rate = m.lambda[i] * d[i];
+    T rate = m.lambda[i] * d[i];
+    if constexpr (Condition::kConditioned) rate = rate * condition.e;
     const T t2 = m.lambda[i] * zi * zi, t3 = t2 * rate;
     s2 += t2;
     s3 += t3;
@@ -37,11 +60,37 @@ template <class L, class Ops, int N, class T>
       dvolume -= m.volume[i] * (zi * rate);
     }
   }
+  if constexpr (L::kNeedsVolume && Condition::kConditioned) {
+    volume = volume / condition.e;
+    dvolume = dvolume / condition.e;
+  }
   return {mu, Ops::square_root(s2), s2, s3, s4, volume, dvolume};
 }
 
+// What condition and rate make of the radius of the surface: its size, and q times its derivative by mu.
+template <class T>
+struct Strength {
+  T radius, slope;
+};
+template <class Ops, class T, class Condition>
+[[gnu::always_inline]] inline Strength<T> strength(const Condition& c, const Hardened<T>& hard, const Flow<T>& flow) {
+  if constexpr (!Condition::kConditioned) {
+    return {hard.radius, hard.slope};
+  } else {
+    const T radius = c.g * hard.radius, slope = c.g * hard.slope;
+    if (c.exponent == 0) return {radius, slope};
+    const T speed = flow.mu * flow.q * (c.per_strain / c.Y_R);
+    const auto counts = speed > c.floor;
+    const T rate = Ops::power(Ops::select(counts, speed, T{} + c.floor), c.exponent);
+    // d ln(mu q)/d mu = 1/mu - s3/q^2
+    const T mu = Ops::select(counts, flow.mu, T{} + 1.0);
+    const T by_mu = Ops::select(counts, c.exponent * (flow.s2 - mu * flow.s3) / (mu * flow.q), T{});
+    return {radius * rate, rate * (slope + radius * by_mu)};
+  }
+}
+
 // Return mapping. On entry tau is the trial (Kirchhoff) stress, J the total volume ratio, `history` the law's history
-// variable and `radius` that of the surface there. Where the trial lies outside, tau,
+// variable and `radius` that of the surface there, before condition and rate. Where the trial lies outside, tau,
 // history and radius are updated to the closest point in the energy norm (associated flow, backward Euler); the return
 // value is the dissipation tau : d eps_p per reference volume, mJ/mm^3.
 //
@@ -49,12 +98,15 @@ template <class L, class Ops, int N, class T>
 //   r(mu) = q(mu) - J radius(mu) = 0.
 // r > 0 at mu = 0; q falls to 0 or, when crushing, the radius passes all bounds: a method of Newton's kind (on 1/q,
 // which is nearly linear in mu) within a bracket that bisection keeps shrinking always converges. For Hill's law r is
-// monotone.
-template <class L, class Ops, int N>
+// monotone. Where the rate counts the unknown is ln mu, in which its part of r is linear.
+template <class L, class Ops, int N, class Condition = AsMeasured<typename Ops::Value>>
 [[gnu::always_inline]] inline typename Ops::Value return_map(const YieldModes<N>& m, typename Ops::Value (&tau)[N],
                                                              const typename Ops::Value& J, typename Ops::Value& history,
-                                                             typename Ops::Value& radius) {
+                                                             typename Ops::Value& radius,
+                                                             const Condition& condition = {}) {
   using T = typename Ops::Value;
+  bool rated = false;
+  if constexpr (Condition::kConditioned) rated = condition.exponent != 0;
   T z[N];
   T q2 = T{};
   for (int i = 0; i < N; ++i) {
@@ -62,7 +114,11 @@ template <class L, class Ops, int N>
     for (int j = 1; j < N; ++j) z[i] += m.to_modes[i][j] * tau[j];
     q2 += m.lambda[i] * z[i] * z[i];
   }
-  const T limit = J * radius;
+  T limit = J * radius;
+  if constexpr (Condition::kConditioned) {
+    limit = J * (condition.g * radius);
+    if (rated) limit = limit * condition.least;
+  }
   const auto yields = q2 > limit * limit;
   if (!Ops::any(yields)) return T{};
 
@@ -71,30 +127,50 @@ template <class L, class Ops, int N>
   T d[N];
   for (int i = 0; i < N; ++i) d[i] = T{} + 1.0;
   T lo = T{}, hi = T{} + 1e300;
-  Flow<T> flow = flow_at<L, Ops, N, T>(m, z, d, T{});
+  Flow<T> flow = flow_at<L, Ops, N, T>(m, condition, z, d, T{});
   const auto& rule = part_of<L>(m.laws);
   const typename L::template From<Ops> law(rule, history, radius, J, flow);
   Hardened<T> hard = law.before(flow);
+  const auto go_to = [&](const T& mu) __attribute__((always_inline)) {
+    for (int i = 0; i < N; ++i) {
+      if constexpr (Condition::kConditioned) {
+        d[i] = 1.0 / (1.0 + mu * (condition.e * m.lambda[i]));
+      } else {
+        d[i] = 1.0 / (1.0 + mu * m.lambda[i]);
+      }
+    }
+    flow = flow_at<L, Ops, N, T>(m, condition, z, d, mu);
+    hard = law.at(flow);
+  };
+  if constexpr (Condition::kConditioned) {
+    if (rated) go_to((condition.strain + 1e-14) * condition.Y_R / flow.q);
+  }
+  Strength<T> now = strength<Ops>(condition, hard, flow);
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
-    const T r = flow.q - J * hard.radius;
+    const T r = flow.q - J * now.radius;
     const auto converged = Ops::absolute(r) <= 1e-12 * flow.q;
     if (!Ops::any(yields & !converged)) break;
     lo = Ops::select(r > 0.0, flow.mu, lo);
     hi = Ops::select(r > 0.0, hi, flow.mu);
     // Newton's method on g = 1/q - 1/(J radius) = 0, its step made longer by what the curvature of 1/q asks for
     // (Halley's method with the hardening straight).
-    const T square = J * hard.radius * hard.radius;
-    const T inverse = 1.0 / (hard.slope * flow.s2 + flow.s3 * square);  // 1/(q^3 J radius^2 dg/dmu)
-    const T step = r * hard.radius * inverse;                           // Newton's, over q^2
-    const T longer = 1.5 * (flow.s2 * flow.s4 - flow.s3 * flow.s3) * square * inverse * step;
-    T next = flow.mu + flow.s2 * step * (1.0 + longer);
+    const T square = J * now.radius * now.radius;
+    const T inverse = 1.0 / (now.slope * flow.s2 + flow.s3 * square);  // 1/(q^3 J radius^2 dg/dmu)
+    const T step = r * now.radius * inverse;                           // Newton's, over q^2
+    T next;
+    if (rated) {
+      const T change = flow.s2 * step, part = change / flow.mu;
+      next = Ops::select(part > 0.0, flow.mu + change, flow.mu / (1.0 - part));
+    } else {
+      const T longer = 1.5 * (flow.s2 * flow.s4 - flow.s3 * flow.s3) * square * inverse * step;
+      next = flow.mu + flow.s2 * step * (1.0 + longer);
+    }
     const T middle = Ops::select(hi < 1e299, 0.5 * (lo + hi), 2.0 * flow.mu + 1e-6);
     next = Ops::select((next > lo) & (next < hi), next, middle);
     if (iteration > kNewtonAlone && iteration % 2 == 1) next = middle;
     const T mu = Ops::select(converged, flow.mu, next);
-    for (int i = 0; i < N; ++i) d[i] = 1.0 / (1.0 + mu * m.lambda[i]);
-    flow = flow_at<L, Ops, N, T>(m, z, d, mu);
-    hard = law.at(flow);
+    go_to(mu);
+    now = strength<Ops>(condition, hard, flow);
   }
   for (int i = 0; i < N; ++i) z[i] = z[i] * d[i];
   for (int i = 0; i < N; ++i) {

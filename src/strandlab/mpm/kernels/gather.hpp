@@ -163,7 +163,10 @@ void gather(const Tile& tile, const BodyView<Dim>& body, const Step<Dim>& step, 
     const Pack J = determinant(F);
     Mask ok;
     Pack change_here;
-    const Pack dissipation = update_stress<Dim>(body, strain, J, block, change_here, result.yielding, ok);
+    const Pack dissipation =
+        body.condition
+            ? update_conditioned<Dim>(body, step, b, strain, J, block, change_here, result.yielding, ok)
+            : update_stress<Dim>(body, wood::AsMeasured<Pack>{}, strain, J, block, change_here, result.yielding, ok);
     plastic += select(real, dissipation, Pack{});
     stress_change += select(real, change_here, Pack{});
     if (any(~ok) && result.bad == 0) result.bad = b + 1;

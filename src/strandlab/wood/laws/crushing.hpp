@@ -45,6 +45,12 @@ struct Crushing {
 
   static constexpr bool kNeedsVolume = true;
 
+  // Volume that is locked in as wood stiffens has collapsed.
+  static double locked_in(const Rule& h, double x, double J, double ln_J_e) {
+    const double collapsed = 1 - (1 - h.x0) * J * __builtin_exp(-ln_J_e);
+    return collapsed > x ? collapsed : x;
+  }
+
   // H(x), and its derivative in `by_x`. Beyond the limit H is huge and its slope 0. One function for all its uses: what
   // a restart computes from the history variable is what the run had, to the bit.
   template <class Ops, class T = typename Ops::Value>

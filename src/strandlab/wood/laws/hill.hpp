@@ -48,6 +48,9 @@ struct Hill {
 
   static constexpr bool kNeedsVolume = false;
 
+  // Strain that is locked in as wood stiffens does not harden it.
+  static double locked_in(const Rule& /*rule*/, double alpha, double /*J*/, double /*ln_J_e*/) { return alpha; }
+
   template <class Ops, class T = typename Ops::Value>
   [[gnu::always_inline]] static T radius(const Rule& rule, const T& alpha) {
     return 1.0 + slope<Ops>(rule, alpha) * alpha / rule.exponent;

@@ -8,6 +8,8 @@
 //     hardening(material)  those of a strand of this wood
 //     Rule, rule()         what the return map needs of the hardening
 //     kNeedsVolume         whether From reads Flow::volume and dvolume
+//     locked_in()          the history variable where wood stiffens under stress and elastic strain becomes plastic:
+//                          from what it was, the volume ratio J and what is left of ln J_e
 //     radius<Ops>()        radius of the surface as a function of the history variable alone, in the same bits wherever
 //                          it is computed, so that a restart finds it again
 //     From<Ops>            how the surface hardens in one step from the history variable and the radius before it:
