@@ -57,6 +57,9 @@ constexpr std::array kRecordFields{
     RecordField{"friction_mJ", {"mJ", "dissipated by friction"}, &press::Record::friction_mJ},
     RecordField{"contact_mJ", {"mJ", "lost in inelastic contact"}, &press::Record::contact_mJ},
     RecordField{"filter_mJ", {"mJ", "lost to the velocity filter"}, &press::Record::filter_mJ},
+    RecordField{
+        "softening_mJ", {"mJ", "lost as wood under stress got softer or stiffer"}, &press::Record::softening_mJ},
+    RecordField{"damping_mJ", {"mJ", "taken by damping"}, &press::Record::damping_mJ},
     RecordField{"platen_work_mJ", {"mJ", "work of the platens"}, &press::Record::platen_work_mJ},
 };
 static_assert(sizeof(press::Record) == kRecordFields.size() * sizeof(double), "a field of Record is missing above");

@@ -37,6 +37,7 @@ struct Record {
   double stress_MPa = 0;  // mean of both platens over the last record interval
   double force_top_N = 0, force_bottom_N = 0;
   double kinetic_mJ = 0, elastic_mJ = 0, plastic_mJ = 0, friction_mJ = 0, contact_mJ = 0, filter_mJ = 0;
+  double softening_mJ = 0, damping_mJ = 0;  // of a hot press only
   double platen_work_mJ = 0;
   double internal_mJ() const { return elastic_mJ + plastic_mJ; }
   double balance_error() const;  // (work - all terms)/work, 0 at rest

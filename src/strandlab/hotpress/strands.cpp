@@ -1,0 +1,389 @@
+#include "strandlab/hotpress/strands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "strandlab/core/error.hpp"
+#include "strandlab/profile/profile.hpp"
+
+namespace strandlab::hotpress {
+namespace {
+
+constexpr double kMPa = 1e6;             // Pa
+constexpr double kMm = 1e-3;             // m
+constexpr int kBinsPerCell = 10;         // of the profile that tells which mass lies below a point
+constexpr int kRampStages = 8;           // in which factors go from old to new
+constexpr double kSpeedUp = .01;         // of the way in which the platens gain their speed
+constexpr double kSlowDown = .05;        // and lose it: a sudden stop sends a wave through the mat
+constexpr double kSlowest = .005;        // of the speed
+constexpr double kLongestClosing = .01;  // of the gap in one exchange
+constexpr double kSettling = 6;          // transits of a wave through the mat, in which a mat settles. Judgement
+constexpr double kDamping = .6;          // of the thickness mode's angular frequency; of critical damping .3
+constexpr int kDampedSteps = 4;          // steps between dampings
+constexpr double kRead = .5;             // part of the settling, its end, from which forces are read
+constexpr double kServoTransits = 4, kServoModulus = 300;  // time and MPa of the control of pressure
+constexpr double kServoSpeed = .25;                        // of the platens' speed, at most, under control of pressure
+constexpr double kDuePressure = .1;  // of the largest pressure: its change for which the mat is settled anew
+
+double change(const std::vector<double>& before, const std::vector<double>& now) {
+  double largest = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) largest = std::max(largest, std::abs(std::log(now[i] / before[i])));
+  return largest;
+}
+
+}  // namespace
+
+StrandMechanics::StrandMechanics(const Panel<2>& mat, const StrandPress& how) : how_(how), panel_(mat) {
+  for (const auto& strand : panel_.strands) {
+    if (strand.stiffness_factor == 1) continue;
+    throw InputError(
+        fmt::format("strands of kind {} are softened already (stiffness_factor = {}); a hot press softens "
+                    "them by heat and moisture: leave it at 1",
+                    strand.kind, strand.stiffness_factor));
+  }
+  read();
+}
+
+StrandMechanics::StrandMechanics(const press::Checkpoint<2>& checkpoint, const StrandPress& how)
+    : how_(how), panel_(checkpoint.panel), conditioned_(true), records_(checkpoint.records) {
+  start();
+  engine_->set_platens(checkpoint.engine.bottom, checkpoint.engine.top);
+  engine_->resume(checkpoint.engine);
+  read();
+}
+
+void StrandMechanics::start() {
+  std::vector<mpm::Body<2>> bodies;
+  for (const auto& strand : panel_.strands) bodies.push_back(mpm::body_of(strand));
+  engine_.emplace(bodies, how_.setup.grid, how_.setup.engine);
+  engine_->set_platens({panel_.bottom_mm, 0}, {panel_.top_mm, 0});
+}
+
+void StrandMechanics::condition(const std::vector<transfer::CellState>& state) {
+  if (conditioned_) return;
+  conditioned_ = true;
+  from_ = to_ = factors_of(state);
+  for (std::size_t s = 0; s < panel_.strands.size(); ++s) {
+    panel_.strands[s].points.stiffness_factor = to_.stiffness[s];
+    panel_.strands[s].points.yield_factor = to_.yield[s];
+  }
+  start();
+}
+
+double StrandMechanics::gap() const {
+  return engine_ ? engine_->state().top.position - engine_->state().bottom.position : panel_.thickness_mm();
+}
+
+double StrandMechanics::height_unloaded() const {
+  return kMm * gap();
+}
+
+// Of the softest wood there may be, so that settling is never too short.
+double StrandMechanics::transit() const {
+  double slowest = 0;
+  for (const auto& strand : panel_.strands)
+    slowest = std::max(slowest, std::sqrt(strand.material.density / strand.material.stiffness(2, 2)));
+  double solid = 0;  // mm of wood
+  for (const auto& strand : panel_.strands)
+    solid += strand.lattice.point_volume() * static_cast<double>(strand.size()) / panel_.length_mm;
+  return slowest * solid / std::sqrt(how_.softening.floor);
+}
+
+double StrandMechanics::longest_step(double closing) const {
+  return closing > 0 ? kLongestClosing * kMm * gap() / closing : MatMechanics::longest_step(closing);
+}
+
+// The panel as the engine has it, and the heights between which each cell's mass lies.
+void StrandMechanics::read() {
+  if (engine_) engine_->write(panel_);
+  const int bins = kBinsPerCell * how_.cells;
+  const auto profile = profile::density_profile(panel_, bins);
+  double total = 0;
+  for (const double density : profile.density_kg_m3) total += density;
+  thickness_.assign(static_cast<std::size_t>(how_.cells), 0);
+  double below = 0, from = 0;
+  int cell = 1;
+  for (int k = 0; k < bins; ++k) {
+    const double here = profile.density_kg_m3[static_cast<std::size_t>(k)];
+    while (cell < how_.cells && below + here >= total * cell / how_.cells) {
+      const double to = k + (total * cell / how_.cells - below) / here;
+      thickness_[static_cast<std::size_t>(cell - 1)] = kMm * profile.bin_height_mm() * (to - from);
+      from = to;
+      ++cell;
+    }
+    below += here;
+  }
+  thickness_.back() = kMm * profile.bin_height_mm() * (bins - from);
+}
+
+// Where every point of the panel lies among the cells, the first from 0 to 1.
+std::vector<double> StrandMechanics::places() const {
+  std::vector<double> faces{panel_.bottom_mm};
+  for (const double t : thickness_) faces.push_back(faces.back() + t / kMm);
+  std::vector<double> all;
+  for (const auto& strand : panel_.strands) {
+    for (const auto& x : strand.points.x) {
+      const auto above = std::upper_bound(faces.begin() + 1, faces.end() - 1, x[1]);
+      const auto cell = above - faces.begin() - 1;
+      const double part =
+          (x[1] - faces[static_cast<std::size_t>(cell)]) / (*above - faces[static_cast<std::size_t>(cell)]);
+      all.push_back(static_cast<double>(cell) + std::clamp(part, 0., 1.));
+    }
+  }
+  return all;
+}
+
+namespace {
+
+// Between the middles of cells, constant beyond the outermost.
+template <class Of>
+double between_cells(std::size_t cells, double place, const Of& of) {
+  const double at = std::clamp(place - .5, 0., static_cast<double>(cells) - 1);
+  const auto i = std::min(static_cast<std::size_t>(at), cells - 2);
+  const double part = at - static_cast<double>(i);
+  return (1 - part) * of(i) + part * of(i + 1);
+}
+
+}  // namespace
+
+StrandMechanics::Factors StrandMechanics::factors_of(const std::vector<transfer::CellState>& state) const {
+  Factors factors;
+  const auto place = places();
+  std::size_t n = 0;
+  for (const auto& strand : panel_.strands) {
+    auto& e = factors.stiffness.emplace_back();
+    auto& g = factors.yield.emplace_back();
+    for (std::size_t p = 0; p < strand.size(); ++p, ++n) {
+      const double T = between_cells(state.size(), place[n], [&](std::size_t i) { return state[i].T; });
+      const double M = between_cells(state.size(), place[n], [&](std::size_t i) { return state[i].M; });
+      e.push_back(stiffness_factor(how_.softening, T, M));
+      g.push_back(yield_factor(how_.softening, T, M));
+    }
+  }
+  return factors;
+}
+
+void StrandMechanics::soften(double part) {
+  for (std::size_t s = 0; s < panel_.strands.size(); ++s) {
+    auto e = from_.stiffness[s], g = from_.yield[s];
+    for (std::size_t p = 0; p < e.size(); ++p) {
+      e[p] += part * (to_.stiffness[s][p] - e[p]);
+      g[p] += part * (to_.yield[s][p] - g[p]);
+    }
+    engine_->soften(static_cast<int>(s), e, g);
+  }
+}
+
+bool StrandMechanics::due(const Move& move, const std::vector<transfer::CellState>& state) const {
+  if (move.last || stiffness_.empty()) return true;
+  if (move.by_pressure) {
+    const bool closing = !at_stop_ && move.stop > 0;
+    if (closing || std::abs(std::max(0., move.stress) - wanted_) > kDuePressure * std::max(wanted_, stress_))
+      return true;
+  } else if (kMm * gap() - move.height > 1e-9 * move.height) {
+    return true;
+  }
+  std::vector<double> e, g;
+  for (const auto& cell : state) {
+    e.push_back(stiffness_factor(how_.softening, cell.T, cell.M));
+    g.push_back(yield_factor(how_.softening, cell.T, cell.M));
+  }
+  return std::max(change(stiffness_, e), change(yield_, g)) > how_.due;
+}
+
+Moved StrandMechanics::move(const Move& move, const std::vector<transfer::CellState>& state, double seconds) {
+  waiting_ += seconds;
+  if (!due(move, state)) return {true, limited_, at_stop_};
+  stiffness_.clear();
+  yield_.clear();
+  for (const auto& cell : state) {
+    stiffness_.push_back(stiffness_factor(how_.softening, cell.T, cell.M));
+    yield_.push_back(yield_factor(how_.softening, cell.T, cell.M));
+  }
+  for (std::size_t s = 0; s < panel_.strands.size(); ++s) {
+    from_.stiffness.resize(panel_.strands.size());
+    from_.yield.resize(panel_.strands.size());
+    from_.stiffness[s] = panel_.strands[s].points.stiffness_factor;
+    from_.yield[s] = panel_.strands[s].points.yield_factor;
+  }
+  to_ = factors_of(state);
+  sum_s_ = sum_top_ = sum_bottom_ = 0;
+  if (!move.by_pressure && kMm * gap() - move.height > 1e-9 * move.height) {
+    close(move, waiting_);
+  } else {
+    settle(move, waiting_);
+  }
+  waiting_ = 0;
+  read();
+  record();
+  return {stress_ > 0 || move.by_pressure || kMm * gap() >= move.height, limited_, at_stop_};
+}
+
+void StrandMechanics::step(double closing_mm_s, double seconds_per_second) {
+  if (how_.before_step) how_.before_step();
+  engine_->set_rate_effect(how_.rate, seconds_per_second);
+  if (how_.symmetric) {
+    engine_->set_platen_velocities(.5 * closing_mm_s, -.5 * closing_mm_s);
+  } else {
+    engine_->set_platen_velocities(0, -closing_mm_s);
+  }
+  engine_->step();
+}
+
+// The platens go on at their speed from one exchange to the next, and come to rest at the final height.
+void StrandMechanics::close(const Move& move, double seconds) {
+  const double from = gap(), to = move.height / kMm, final_gap = move.final_height / kMm;
+  const double full = how_.speed_m_s / kMm, way = panel_.initial_thickness_mm - final_gap;
+  const double gain = full * full / (2 * kSpeedUp * way), loss = full * full / (2 * kSlowDown * way);
+  int stage = 0;
+  limited_ = at_stop_ = false;
+  while (gap() > to) {
+    const double dt = engine_->state().time_step_s;
+    velocity_ = std::min(full, velocity_ + gain * dt);
+    velocity_ = std::min(velocity_, std::sqrt(2 * loss * std::max(0., gap() - final_gap)));
+    velocity_ = std::max(velocity_, kSlowest * full);
+    if (to <= final_gap) velocity_ = std::min(velocity_, (gap() - to) / dt * (1 + 1e-12));
+    step(velocity_, seconds * velocity_ / (from - to));
+    sum_s_ += dt;
+    sum_top_ += engine_->top_force() * dt;
+    sum_bottom_ += engine_->bottom_force() * dt;
+    const auto reached = static_cast<int>(2 * kRampStages * (from - gap()) / (from - to));
+    if (reached > stage && stage < kRampStages) {
+      stage = std::min(reached, kRampStages);
+      soften(static_cast<double>(stage) / kRampStages);
+    }
+  }
+  if (stage < kRampStages) soften(1);
+  if (to <= final_gap) velocity_ = 0;
+}
+
+// At rest, or under a pressure, until the mat is: damped.
+void StrandMechanics::settle(const Move& move, double seconds) {
+  const double wave = transit(), time = kSettling * wave, begin = engine_->state().time_s;
+  const double damping = kDamping * std::numbers::pi / wave;
+  const double full = how_.speed_m_s / kMm;
+  const double least = std::max(move.stop, kMm * gap() - move.fastest * seconds) / kMm;  // mm
+  const double wanted = std::max(0., move.stress) / kMPa;
+  const double area = panel_.length_mm * panel_.depth_mm;
+  int stage = 0;
+  for (int n = 1;; ++n) {
+    const double passed = engine_->state().time_s - begin, dt = engine_->state().time_step_s;
+    if (passed >= time) break;
+    double closing = 0;
+    if (move.by_pressure) {
+      closing = -gap() * (filtered_ - wanted) / (kServoModulus * kServoTransits * wave);
+      closing = std::clamp(closing, -kServoSpeed * full, kServoSpeed * full);
+      closing = std::min(closing, std::max(0., gap() - least) / dt);
+    } else if (move.height / kMm > gap()) {
+      closing = -std::min(kServoSpeed * full, (move.height / kMm - gap()) / dt);
+    }
+    step(closing, seconds / time);
+    filtered_ += (.5 * (engine_->top_force() + engine_->bottom_force()) / area - filtered_) * std::min(1., dt / wave);
+    if (n % kDampedSteps == 0) engine_->scale_velocities(std::exp(-damping * kDampedSteps * dt));
+    if (passed > (1 - kRead) * time) {
+      sum_s_ += dt;
+      sum_top_ += engine_->top_force() * dt;
+      sum_bottom_ += engine_->bottom_force() * dt;
+    }
+    const auto reached = static_cast<int>(2 * kRampStages * passed / time);
+    if (reached > stage && stage < kRampStages) {
+      stage = std::min(reached, kRampStages);
+      soften(static_cast<double>(stage) / kRampStages);
+    }
+  }
+  velocity_ = 0;
+  wanted_ = kMPa * wanted;
+  limited_ = move.by_pressure && gap() <= least * (1 + 1e-9);
+  at_stop_ = limited_ && least * kMm <= move.stop * (1 + 1e-12);
+}
+
+void StrandMechanics::record() {
+  press::Record r;
+  r.compaction = 1 - gap() / panel_.initial_thickness_mm;
+  r.time_ms = 1e3 * engine_->state().time_s;
+  r.force_top_N = sum_s_ > 0 ? sum_top_ / sum_s_ : 0;
+  r.force_bottom_N = sum_s_ > 0 ? sum_bottom_ / sum_s_ : 0;
+  const double mean = .5 * (r.force_top_N + r.force_bottom_N);
+  r.stress_MPa = mean / (panel_.length_mm * panel_.depth_mm);
+  stress_ = kMPa * r.stress_MPa;
+  const auto e = engine_->energies();
+  r.kinetic_mJ = e.kinetic;
+  r.elastic_mJ = e.elastic;
+  r.plastic_mJ = e.plastic;
+  r.friction_mJ = e.friction;
+  r.contact_mJ = e.contact;
+  r.filter_mJ = e.filter;
+  r.softening_mJ = e.softening;
+  r.damping_mJ = e.damping;
+  r.platen_work_mJ = e.platen_work;
+  if (r.compaction >= press::kJudgedFrom && mean > 0) {
+    worst_kinetic_ = std::max(worst_kinetic_, engine_->mean_motion_energy() / r.internal_mJ());
+    worst_imbalance_ = std::max(worst_imbalance_, std::abs(r.force_top_N - r.force_bottom_N) / mean);
+  }
+  records_.push_back(r);
+}
+
+Panel<2> StrandMechanics::panel(const std::vector<Reading>& cells) const {
+  Panel<2> panel = panel_;
+  const auto place = places();
+  std::size_t n = 0;
+  for (auto& strand : panel.strands) {
+    auto& points = strand.points;
+    const auto fill = [&](std::vector<double>& values, double Reading::*member) {
+      values.clear();
+      for (std::size_t p = 0; p < strand.size(); ++p)
+        values.push_back(between_cells(cells.size(), place[n + p], [&](std::size_t i) { return cells[i].*member; }));
+    };
+    fill(points.temperature, &Reading::T);
+    fill(points.moisture, &Reading::M);
+    fill(points.gas, &Reading::gas);
+    fill(points.cure, &Reading::cure);
+    n += strand.size();
+  }
+  return panel;
+}
+
+press::Checkpoint<2> StrandMechanics::checkpoint() const {
+  press::Checkpoint<2> checkpoint;
+  checkpoint.panel = panel_;
+  checkpoint.engine = engine_->state();
+  checkpoint.engine.energies = engine_->energies();
+  checkpoint.records = records_;
+  return checkpoint;
+}
+
+void StrandMechanics::visit(Numbers& numbers) {
+  numbers(thickness_);
+  numbers(stiffness_);
+  numbers(yield_);
+  for (auto* number : {&stress_, &waiting_, &velocity_, &wanted_, &filtered_, &worst_kinetic_, &worst_imbalance_})
+    numbers(*number);
+  numbers(limited_);
+  numbers(at_stop_);
+}
+
+std::vector<std::string> StrandMechanics::warnings() const {
+  std::vector<std::string> list;
+  if (worst_kinetic_ > press::kKineticLimit) {
+    list.push_back(
+        fmt::format("The press closed too fast: the energy of the strands' motion reached {:.1f} % of the "
+                    "internal energy (limit {:.0f} %). Lower press.speed_m_s.",
+                    100 * worst_kinetic_, 100 * press::kKineticLimit));
+  }
+  if (worst_imbalance_ > press::kForceLimit) {
+    list.push_back(
+        fmt::format("The two platens felt forces that differed by up to {:.0f} % (limit {:.0f} %): the mat "
+                    "was not pressed evenly. Lower press.speed_m_s.",
+                    100 * worst_imbalance_, 100 * press::kForceLimit));
+  }
+  if (!records_.empty() && std::abs(records_.back().balance_error()) > press::kBalanceLimit) {
+    list.push_back(fmt::format("The energy balance is off by {:.1f} % of the platens' work.",
+                               100 * records_.back().balance_error()));
+  }
+  return list;
+}
+
+}  // namespace strandlab::hotpress

@@ -1,0 +1,95 @@
+// A mat pressed hot strand by strand: the material point press between the exchanges with heat and moisture.
+//
+// Every exchange moves the platens as the schedule says in the press's time, at the engine's own speed, while the
+// points' factors of stiffness and yield go from those of the last temperatures to those of the next over its first
+// half. Wood is slow and the engine is fast: yield follows the rate of the press's time. In a hold, heat goes on until
+// some layer's factors have changed enough to matter; then the mat settles, damped.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "strandlab/hotpress/mechanics.hpp"
+#include "strandlab/press/press.hpp"
+
+namespace strandlab::hotpress {
+
+struct StrandPress {
+  press::Setup<2> setup;
+  double speed_m_s = 16;   // of the platens in the engine
+  bool symmetric = false;  // both platens move, else the top one
+  wood::RateEffect rate;
+  Softening softening;
+  int cells = 40;                     // of equal mass, as the transfer has them
+  double due = .1;                    // change of a layer's ln factor for which a mat at rest is settled anew
+  std::function<void()> before_step;  // what it throws ends the pressing
+};
+
+class StrandMechanics : public MatMechanics {
+ public:
+  // The mat as formed, its strands of crushing or of Hill's wood. Throws InputError for strands that are softened
+  // already (StrandKind: yield_factor, stiffness_factor): heat does that here.
+  StrandMechanics(const Panel<2>& mat, const StrandPress& how);
+  // Goes on from a checkpoint, whose engine and panel it takes; visit() then brings the rest.
+  StrandMechanics(const press::Checkpoint<2>& checkpoint, const StrandPress& how);
+
+  void condition(const std::vector<transfer::CellState>& state) override;
+  Moved move(const Move& move, const std::vector<transfer::CellState>& state, double seconds) override;
+  std::vector<double> thickness() const override { return thickness_; }
+  double stress() const override { return stress_; }
+  double height_unloaded() const override;  // the gap: it opens until the platens feel nothing
+  double longest_step(double closing) const override;
+  void visit(Numbers& numbers) override;
+
+  // The panel now, its points with temperature, moisture, gas pressure and cure as a reading of the cells says (bottom
+  // to top).
+  struct Reading {
+    double T, M, gas, cure;  // C, kg/kg, kPa above the room's, 1
+  };
+  Panel<2> panel(const std::vector<Reading>& cells) const;
+  press::Checkpoint<2> checkpoint() const;
+  const std::vector<press::Record>& records() const { return records_; }  // one per exchange
+  const mpm::Engine<2>& engine() const { return *engine_; }
+  std::vector<std::string> warnings() const;
+
+  // Largest of all exchanges from a compaction of press::kJudgedFrom on.
+  double worst_kinetic() const { return worst_kinetic_; }      // energy of the strands' mean motion over internal
+  double worst_imbalance() const { return worst_imbalance_; }  // difference of the platens' forces over their mean
+
+ private:
+  struct Factors {
+    std::vector<std::vector<double>> stiffness, yield;  // by strand, by point
+  };
+  double gap() const;                  // mm
+  double transit() const;              // s, of a wave through the mat as formed
+  std::vector<double> places() const;  // of all points: mass below over all, times cells
+  Factors factors_of(const std::vector<transfer::CellState>& state) const;
+  void start();
+  void soften(double part);  // of the way to the next factors
+  void read();               // panel and layers from the engine
+  void step(double closing_mm_s, double seconds_per_second);
+  void close(const Move& move, double seconds);
+  void settle(const Move& move, double seconds);
+  void record();
+  bool due(const Move& move, const std::vector<transfer::CellState>& state) const;
+
+  StrandPress how_;
+  Panel<2> panel_;
+  std::optional<mpm::Engine<2>> engine_;
+  bool conditioned_ = false;
+  std::vector<double> thickness_;          // m, by cell
+  double stress_ = 0;                      // Pa
+  std::vector<double> stiffness_, yield_;  // factors by cell at the last exchange
+  Factors from_, to_;
+  double waiting_ = 0;   // s of the press since the last exchange
+  double velocity_ = 0;  // mm/s, of closing
+  double wanted_ = 0;    // Pa, of the last exchange under pressure
+  bool limited_ = false, at_stop_ = false;
+  double filtered_ = 0;  // MPa
+  double worst_kinetic_ = 0, worst_imbalance_ = 0;
+  double sum_s_ = 0, sum_top_ = 0, sum_bottom_ = 0;  // impulses of the part of an exchange that is read
+  std::vector<press::Record> records_;
+};
+
+}  // namespace strandlab::hotpress
