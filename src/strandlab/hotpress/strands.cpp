@@ -20,13 +20,14 @@ constexpr double kSpeedUp = .01;         // of the way in which the platens gain
 constexpr double kSlowDown = .05;        // and lose it: a sudden stop sends a wave through the mat
 constexpr double kSlowest = .005;        // of the speed
 constexpr double kLongestClosing = .01;  // of the gap in one exchange
-constexpr double kSettling = 6;          // transits of a wave through the mat, in which a mat settles. Judgement
+constexpr double kSettling = 3;          // transits of a wave through the mat, in which a mat settles. Judgement
 constexpr double kDamping = .6;          // of the thickness mode's angular frequency; of critical damping .3
 constexpr int kDampedSteps = 4;          // steps between dampings
 constexpr double kRead = .5;             // part of the settling, its end, from which forces are read
 constexpr double kServoTransits = 4, kServoModulus = 300;  // time and MPa of the control of pressure
 constexpr double kServoSpeed = .25;                        // of the platens' speed, at most, under control of pressure
-constexpr double kDuePressure = .1;  // of the largest pressure: its change for which the mat is settled anew
+constexpr double kDuePressure = .1;  // of the stress held: its change for which the mat is settled anew
+constexpr double kJudged = .1;       // of the largest stress: from it on a pressing is judged
 
 double change(const std::vector<double>& before, const std::vector<double>& now) {
   double largest = 0;
@@ -181,8 +182,7 @@ bool StrandMechanics::due(const Move& move, const std::vector<transfer::CellStat
   if (move.last || stiffness_.empty()) return true;
   if (move.by_pressure) {
     const bool closing = !at_stop_ && move.stop > 0;
-    if (closing || std::abs(std::max(0., move.stress) - wanted_) > kDuePressure * std::max(wanted_, stress_))
-      return true;
+    if (closing || std::abs(std::max(0., move.stress) - wanted_) > kDuePressure * held_) return true;
   } else if (kMm * gap() - move.height > 1e-9 * move.height) {
     return true;
   }
@@ -258,6 +258,7 @@ void StrandMechanics::close(const Move& move, double seconds) {
   }
   if (stage < kRampStages) soften(1);
   if (to <= final_gap) velocity_ = 0;
+  by_pressure_ = false;
 }
 
 // At rest, or under a pressure, until the mat is: damped.
@@ -296,6 +297,7 @@ void StrandMechanics::settle(const Move& move, double seconds) {
   }
   velocity_ = 0;
   wanted_ = kMPa * wanted;
+  by_pressure_ = move.by_pressure;
   limited_ = move.by_pressure && gap() <= least * (1 + 1e-9);
   at_stop_ = limited_ && least * kMm <= move.stop * (1 + 1e-12);
 }
@@ -309,6 +311,7 @@ void StrandMechanics::record() {
   const double mean = .5 * (r.force_top_N + r.force_bottom_N);
   r.stress_MPa = mean / (panel_.length_mm * panel_.depth_mm);
   stress_ = kMPa * r.stress_MPa;
+  if (!by_pressure_) held_ = wanted_ = stress_;
   const auto e = engine_->energies();
   r.kinetic_mJ = e.kinetic;
   r.elastic_mJ = e.elastic;
@@ -319,10 +322,7 @@ void StrandMechanics::record() {
   r.softening_mJ = e.softening;
   r.damping_mJ = e.damping;
   r.platen_work_mJ = e.platen_work;
-  if (r.compaction >= press::kJudgedFrom && mean > 0) {
-    worst_kinetic_ = std::max(worst_kinetic_, engine_->mean_motion_energy() / r.internal_mJ());
-    worst_imbalance_ = std::max(worst_imbalance_, std::abs(r.force_top_N - r.force_bottom_N) / mean);
-  }
+
   records_.push_back(r);
 }
 
@@ -359,25 +359,34 @@ void StrandMechanics::visit(Numbers& numbers) {
   numbers(thickness_);
   numbers(stiffness_);
   numbers(yield_);
-  for (auto* number : {&stress_, &waiting_, &velocity_, &wanted_, &filtered_, &worst_kinetic_, &worst_imbalance_})
-    numbers(*number);
+  for (auto* number : {&stress_, &waiting_, &velocity_, &wanted_, &held_, &filtered_}) numbers(*number);
+  numbers(by_pressure_);
   numbers(limited_);
   numbers(at_stop_);
 }
 
+// While gaps close, at little stress, inertia leaves no trace.
 std::vector<std::string> StrandMechanics::warnings() const {
   std::vector<std::string> list;
-  if (worst_kinetic_ > press::kKineticLimit) {
+  double most = 0, kinetic = 0, imbalance = 0;
+  for (const auto& r : records_) most = std::max(most, r.stress_MPa);
+  for (const auto& r : records_) {
+    if (!(r.stress_MPa > kJudged * most)) continue;
+    kinetic = std::max(kinetic, r.kinetic_mJ / r.internal_mJ());
+    imbalance =
+        std::max(imbalance, std::abs(r.force_top_N - r.force_bottom_N) / (.5 * (r.force_top_N + r.force_bottom_N)));
+  }
+  if (kinetic > press::kKineticLimit) {
     list.push_back(
         fmt::format("The press closed too fast: the energy of the strands' motion reached {:.1f} % of the "
                     "internal energy (limit {:.0f} %). Lower press.speed_m_s.",
-                    100 * worst_kinetic_, 100 * press::kKineticLimit));
+                    100 * kinetic, 100 * press::kKineticLimit));
   }
-  if (worst_imbalance_ > press::kForceLimit) {
+  if (imbalance > press::kForceLimit) {
     list.push_back(
         fmt::format("The two platens felt forces that differed by up to {:.0f} % (limit {:.0f} %): the mat "
                     "was not pressed evenly. Lower press.speed_m_s.",
-                    100 * worst_imbalance_, 100 * press::kForceLimit));
+                    100 * imbalance, 100 * press::kForceLimit));
   }
   if (!records_.empty() && std::abs(records_.back().balance_error()) > press::kBalanceLimit) {
     list.push_back(fmt::format("The energy balance is off by {:.1f} % of the platens' work.",

@@ -51,11 +51,7 @@ class StrandMechanics : public MatMechanics {
   press::Checkpoint<2> checkpoint() const;
   const std::vector<press::Record>& records() const { return records_; }  // one per exchange
   const mpm::Engine<2>& engine() const { return *engine_; }
-  std::vector<std::string> warnings() const;
-
-  // Largest of all exchanges from a compaction of press::kJudgedFrom on.
-  double worst_kinetic() const { return worst_kinetic_; }      // energy of the strands' mean motion over internal
-  double worst_imbalance() const { return worst_imbalance_; }  // difference of the platens' forces over their mean
+  std::vector<std::string> warnings() const;  // of inertia and of the balance of energy
 
  private:
   struct Factors {
@@ -84,10 +80,12 @@ class StrandMechanics : public MatMechanics {
   Factors from_, to_;
   double waiting_ = 0;   // s of the press since the last exchange
   double velocity_ = 0;  // mm/s, of closing
-  double wanted_ = 0;    // Pa, of the last exchange under pressure
+  double wanted_ = 0;    // Pa, of the last exchange
+  double held_ = 0;      // Pa, when the platens were last moved by position
+  bool by_pressure_ = false;
   bool limited_ = false, at_stop_ = false;
   double filtered_ = 0;  // MPa
-  double worst_kinetic_ = 0, worst_imbalance_ = 0;
+
   double sum_s_ = 0, sum_top_ = 0, sum_bottom_ = 0;  // impulses of the part of an exchange that is read
   std::vector<press::Record> records_;
 };
