@@ -160,6 +160,10 @@ double density_kg_m3(const Case& c, const mat::Mat& mat, double compaction) {
 
 void settle_states(Case& c, const mat::Mat& mat) {
   auto& compactions = c.schedule.compactions;
+  if (presses_hot(c)) {
+    compactions = {std::round(kStates * closed_compaction(c, mat)) / kStates};
+    return;
+  }
   compactions = c.states.compactions;
   if (!compactions.empty()) return;
   const bool by_density = c.states.thicknesses_mm.empty();

@@ -107,8 +107,8 @@ Weight weigh(const Case& c, const mat::Mat& mat);
 // Density of its panel of area at a compaction, voids included, kg/m^3.
 double density_kg_m3(const Case& c, const mat::Mat& mat, double compaction);
 // Makes c.schedule.compactions those at which the mat has the case's states: as given, or to 1e-4 those of its
-// densities or thicknesses. Throws InputError for a state that the mat is beyond as formed, and for two states that
-// round to one compaction.
+// densities or thicknesses; for a mat that is pressed hot the one at which its schedule has closed. Throws InputError
+// for a state that the mat is beyond as formed, and for two states that round to one compaction.
 void settle_states(Case& c, const mat::Mat& mat);
 // One line for each of the case's materials whose constants follow from a species' ratios: which, from what, and where
 // the ratios are from; or of which only E_L was changed: which constants did not follow it.

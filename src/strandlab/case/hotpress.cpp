@@ -72,6 +72,15 @@ void check_hotpress(const Case& c, const std::function<void(const std::string&, 
   check("permeability.table", [&] { static_cast<void>(permeability_table(h.permeability_table)); });
   check("resin.face", [&] { static_cast<void>(find_resin(c, h.resin_face)); });
   check("resin.core", [&] { static_cast<void>(find_resin(c, h.resin_core)); });
+  if (!presses_hot(c)) return;
+  for (const auto& kind : c.kinds) {
+    if (kind.yield_factor == 1 && kind.stiffness_factor == 1) continue;
+    fail(
+        "hotpress.mechanics",
+        fmt::format("kinds.{} has yield_factor = {} and stiffness_factor = {}, but a hot press finds by itself how far "
+                    "heat and moisture soften wood: leave both at 1, or press cold with mechanics = \"column\"",
+                    kind.name, kind.yield_factor, kind.stiffness_factor));
+  }
 }
 
 hotpress::Settings hotpress_settings(const Case& c) {
@@ -95,6 +104,28 @@ hotpress::Settings hotpress_settings(const Case& c) {
   s.constants = constants_of(h);
   if (!h.log_file.empty()) s.log = hotpress::read_log(h.log_file, h.log_columns);
   return s;
+}
+
+bool presses_hot(const Case& c) {
+  return c.hotpress.given && c.hotpress.mechanics == "strands";
+}
+
+double closed_compaction(const Case& c, const mat::Mat& mat) {
+  const auto settings = hotpress_settings(c);
+  const auto size = hotpress::size_of(pressed_mat(c, mat));
+  double closed = size.thickness;
+  if (settings.log) {
+    for (const auto& point : settings.log->position) closed = std::min(closed, point.value);
+    if (settings.log->position.empty())
+      throw InputError(
+          fmt::format("{}: a log without positions can be followed with hotpress.mechanics = \"column\" only",
+                      c.hotpress.log_file));
+  } else {
+    for (const auto& phase : settings.schedule) {
+      if (phase.target) closed = std::min(closed, hotpress::thickness_of(*phase.target, size));
+    }
+  }
+  return 1 - closed / size.thickness;
 }
 
 hotpress::PressedMat pressed_mat(const Case& c, const mat::Mat& mat) {

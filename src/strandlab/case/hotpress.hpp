@@ -29,7 +29,8 @@ struct ResinSettings {
 
 struct HotPressSettings {
   bool given = false;  // the case has [hotpress]
-  std::string mechanics = "column";
+  std::string mechanics = "strands";
+  std::string kept = "opened";  // state of the panel that is kept and tested: "opened" or "closed"
   double platen_C = 200;
   std::string platen_program, platen_bottom_program;  // "0 200, 60 190"; empty: platen_C; as the top
   double bottom_lead_s = 0;
@@ -54,6 +55,13 @@ void check_hotpress(const Case& c, const std::function<void(const std::string& k
 // What the hot press needs to know of a case; defaults where it has no [hotpress]. Reads the log it names. Throws
 // InputError.
 hotpress::Settings hotpress_settings(const Case& c);
+
+// Whether the mat is pressed hot strand by strand: the case has [hotpress] and mechanics = "strands".
+bool presses_hot(const Case& c);
+
+// Compaction at which the press of such a case has closed on this mat. Throws InputError for a schedule that cannot be
+// followed.
+double closed_compaction(const Case& c, const mat::Mat& mat);
 
 // The mat's rows as layers of one material each, by their mass.
 hotpress::PressedMat pressed_mat(const Case& c, const mat::Mat& mat);

@@ -25,11 +25,17 @@ const char* side_name(mpm::Side side) {
 std::vector<Declaration<HotPressSettings>> cycle_settings() {
   using H = HotPressSettings;
   auto mechanics = declare("mechanics", "", kAny,
-                           "how the mat resists: as a column of its layers without gaps, or not at all, of uniform "
-                           "density",
+                           "how the mat resists in `strandlab run`: strand by strand; with column or uniform "
+                           "`strandlab run` presses cold. `strandlab hotpress` takes a column of the mat's layers "
+                           "without gaps, with uniform no resistance and the same density everywhere",
                            &H::mechanics);
-  mechanics.choices = {"column", "uniform"};
+  mechanics.choices = {"strands", "column", "uniform"};
+  auto kept =
+      declare("kept", "", kAny,
+              "panel of `strandlab run` that is kept and tested: as opened, or closed, as held at last", &H::kept);
+  kept.choices = {"opened", "closed"};
   return {std::move(mechanics),
+          std::move(kept),
           declare("platen_C", "C", {.lo = 20, .hi = 300}, "temperature of the platens; above 220 with a warning",
                   &H::platen_C),
           declare("platen_program", "", kAny,

@@ -42,8 +42,13 @@ bool is_given(const Value& value) {
   return !list || !list->empty();
 }
 
+// [hotpress] and what it names.
+bool of_cycle(const std::string& section) {
+  return section.rfind("hotpress", 0) == 0 || section == "resins.*";
+}
+
 Step step_of(const std::string& section) {
-  if (section == "press" || section == "grid") return Step::kPress;
+  if (section == "press" || section == "grid" || of_cycle(section)) return Step::kPress;
   return section == "glue" || section == "test" ? Step::kTest : Step::kMat;
 }
 
@@ -147,7 +152,7 @@ std::vector<std::string> identity(const Case& c, Step last) {
   std::vector<std::string> lines;
   for (const auto& key : keys()) {
     const auto section = section_of(key);
-    if (!key.changes_results || step_of(section) > last) continue;
+    if (!(key.changes_results || (of_cycle(section) && presses_hot(c))) || step_of(section) > last) continue;
     for (const auto& name : instances(c, section)) {
       const auto value = key.get(c, name);
       if (is_given(value)) lines.push_back(fmt::format("{} = {}", with_name(key.path, name), to_toml(value)));

@@ -160,17 +160,65 @@ Answers answers(const Cycle& cycle) {
   return a;
 }
 
+namespace {
+
+Settings with_permeability(Settings s, double factor) {
+  s.constants.permeability_400 *= factor;
+  s.constants.permeability_floor *= factor;
+  for (auto& point : s.constants.permeabilities) point.permeability *= factor;
+  return s;
+}
+
+// The mat of a cycle that is there, its thicknesses and stresses step by step.
+class Replay final : public MatMechanics {
+ public:
+  explicit Replay(const Cycle& cycle) : cycle_(cycle) {}
+  void condition(const std::vector<transfer::CellState>& /*state*/) override {}
+  Moved move(const Move& /*move*/, const std::vector<transfer::CellState>& /*state*/, double /*seconds*/) override {
+    moves_ = std::min(moves_ + 1, cycle_.record.size());
+    const auto& now = this->now();
+    return {now.phase != "open" || now.pressure > 0, now.phase == "close" && now.mark.empty(), false};
+  }
+  std::vector<double> thickness() const override {
+    std::vector<double> all;
+    const auto& cells = now().cells;
+    for (const auto& cell : cells)
+      all.push_back(cycle_.mat.dry_mass / static_cast<double>(cells.size()) / cell.density);
+    return all;
+  }
+  double stress() const override { return now().stress; }
+  double height_unloaded() const override { return cycle_.thickness_unloaded; }
+  double longest_step(double /*closing*/) const override {
+    const auto next = std::min(moves_, cycle_.record.size() - 1);
+    const double time = cycle_.record[next].time - (next == 0 ? 0 : cycle_.record[next - 1].time);
+    return time > 0 ? time : MatMechanics::longest_step(0);
+  }
+  void visit(Numbers& numbers) override { numbers(moves_); }
+
+ private:
+  // After the last move; before the first one the mat is as after it.
+  const Instant& now() const { return cycle_.record[moves_ == 0 ? 0 : moves_ - 1]; }
+
+  const Cycle& cycle_;
+  std::size_t moves_ = 0;
+};
+
+}  // namespace
+
 Band press_in_band(const Settings& settings, const PressedMat& mat) {
-  const auto answers_with = [&](double factor) {
-    auto s = settings;
-    s.constants.permeability_400 *= factor;
-    s.constants.permeability_floor *= factor;
-    for (auto& point : s.constants.permeabilities) point.permeability *= factor;
-    return answers(press_hot(s, mat));
-  };
   auto cycle = press_hot(settings, mat);
   const auto own = answers(cycle);
-  return {std::move(cycle), own, answers_with(3), answers_with(1. / 3)};
+  const auto with = [&](double factor) { return answers(press_hot(with_permeability(settings, factor), mat)); };
+  return {std::move(cycle), own, with(3), with(1. / 3)};
+}
+
+Band in_band(Cycle cycle, const PressedMat& mat) {
+  const auto with = [&](double factor) {
+    Replay replay(cycle);
+    return answers(press_hot(with_permeability(cycle.settings, factor), mat, replay, {}));
+  };
+  const auto own = answers(cycle), permeable = with(3), tight = with(1. / 3);
+  return {std::move(cycle), own, permeable, tight};
 }
 
 const char* risk(double blow) {

@@ -56,6 +56,8 @@ struct Band {
 };
 // Presses three times. Throws as press_hot().
 Band press_in_band(const Settings& settings, const PressedMat& mat);
+// The band of a cycle that is there: heat and moisture go once more through the thicknesses it recorded.
+Band in_band(Cycle cycle, const PressedMat& mat);
 
 // "low" below .5, "watch" to 1, "blow likely" above.
 const char* risk(double blow);

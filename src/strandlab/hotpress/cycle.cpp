@@ -273,7 +273,9 @@ class Press {
     return aim;
   }
   void mark(const char* what) {
-    if (!out_.record.empty()) out_.record.back().mark = what;
+    if (out_.record.empty()) return;
+    out_.record.back().mark = what;
+    if (watch_.marked) watch_.marked(out_.record.back());
   }
   double pressure_now() const { return out_.record.empty() ? 0 : out_.record.back().pressure; }
 
@@ -526,6 +528,18 @@ class Press {
 };
 
 }  // namespace
+
+const char* name(Mechanics mechanics) {
+  switch (mechanics) {
+    case Mechanics::kColumn:
+      return "column";
+    case Mechanics::kUniform:
+      return "uniform";
+    case Mechanics::kStrands:
+      break;
+  }
+  return "strands";
+}
 
 MatSize size_of(const PressedMat& mat) {
   MatSize size;

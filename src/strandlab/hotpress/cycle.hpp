@@ -20,6 +20,7 @@ namespace strandlab::hotpress {
 // How the mat resists: as a column of its layers without gaps (column.hpp); not at all, its density the same everywhere
 // at all times, so that the press is moved by position only; or strand by strand (strands.hpp).
 enum class Mechanics { kColumn, kUniform, kStrands };
+const char* name(Mechanics mechanics);  // "column", "uniform", "strands"
 
 // Wood of one material, bottom to top.
 struct MatLayer {
@@ -94,6 +95,7 @@ Cycle press_hot(const Settings& settings, const PressedMat& mat);
 struct Watch {
   // After every step. state() is the whole state of the cycle, its mechanics included, to go on from.
   std::function<void(const Instant& now, const std::function<std::vector<double>()>& state)> step;
+  std::function<void(const Instant& now)> marked;  // at the ends of closing, of the hold and of the cycle
 };
 
 // The same with the mat's mechanics of one's own, from the start or from a state that a watch was given.

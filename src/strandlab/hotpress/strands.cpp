@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "strandlab/core/error.hpp"
@@ -16,7 +17,7 @@ constexpr double kMPa = 1e6;             // Pa
 constexpr double kMm = 1e-3;             // m
 constexpr int kBinsPerCell = 10;         // of the profile that tells which mass lies below a point
 constexpr int kRampStages = 8;           // in which factors go from old to new
-constexpr double kSpeedUp = .01;         // of the way in which the platens gain their speed
+constexpr double kSpeedUp = .05;         // of the way in which the platens gain their speed
 constexpr double kSlowDown = .05;        // and lose it: a sudden stop sends a wave through the mat
 constexpr double kSlowest = .005;        // of the speed
 constexpr double kLongestClosing = .01;  // of the gap in one exchange
@@ -27,7 +28,7 @@ constexpr double kRead = .5;             // part of the settling, its end, from 
 constexpr double kServoTransits = 4, kServoModulus = 300;  // time and MPa of the control of pressure
 constexpr double kServoSpeed = .25;                        // of the platens' speed, at most, under control of pressure
 constexpr double kDuePressure = .1;  // of the stress held: its change for which the mat is settled anew
-constexpr double kJudged = .1;       // of the largest stress: from it on a pressing is judged
+constexpr double kJudged = .1;       // of the largest stress: from where the mat bears it a pressing is judged
 
 double change(const std::vector<double>& before, const std::vector<double>& now) {
   double largest = 0;
@@ -211,6 +212,7 @@ Moved StrandMechanics::move(const Move& move, const std::vector<transfer::CellSt
   }
   to_ = factors_of(state);
   sum_s_ = sum_top_ = sum_bottom_ = 0;
+  const bool opens = !move.by_pressure && move.height > kMm * gap() * (1 + 1e-9);
   if (!move.by_pressure && kMm * gap() - move.height > 1e-9 * move.height) {
     close(move, waiting_);
   } else {
@@ -219,7 +221,7 @@ Moved StrandMechanics::move(const Move& move, const std::vector<transfer::CellSt
   waiting_ = 0;
   read();
   record();
-  return {stress_ > 0 || move.by_pressure || kMm * gap() >= move.height, limited_, at_stop_};
+  return {stress_ > 0 || !opens, limited_, at_stop_};
 }
 
 void StrandMechanics::step(double closing_mm_s, double seconds_per_second) {
@@ -370,11 +372,13 @@ std::vector<std::string> StrandMechanics::warnings() const {
   std::vector<std::string> list;
   double most = 0, kinetic = 0, imbalance = 0;
   for (const auto& r : records_) most = std::max(most, r.stress_MPa);
-  for (const auto& r : records_) {
-    if (!(r.stress_MPa > kJudged * most)) continue;
-    kinetic = std::max(kinetic, r.kinetic_mJ / r.internal_mJ());
+  const auto bears = [&](const press::Record& r) { return r.stress_MPa >= kJudged * most; };
+  const auto peak = std::find_if(records_.begin(), records_.end(), [&](const auto& r) { return r.stress_MPa == most; });
+  const auto loose = std::find_if_not(std::make_reverse_iterator(peak), records_.rend(), bears);
+  for (auto r = loose.base(); r != records_.end() && bears(*r); ++r) {
+    kinetic = std::max(kinetic, r->kinetic_mJ / r->internal_mJ());
     imbalance =
-        std::max(imbalance, std::abs(r.force_top_N - r.force_bottom_N) / (.5 * (r.force_top_N + r.force_bottom_N)));
+        std::max(imbalance, std::abs(r->force_top_N - r->force_bottom_N) / (.5 * (r->force_top_N + r->force_bottom_N)));
   }
   if (kinetic > press::kKineticLimit) {
     list.push_back(

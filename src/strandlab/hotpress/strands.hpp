@@ -26,7 +26,7 @@ struct StrandPress {
   std::function<void()> before_step;  // what it throws ends the pressing
 };
 
-class StrandMechanics : public MatMechanics {
+class StrandMechanics final : public MatMechanics {
  public:
   // The mat as formed, its strands of crushing or of Hill's wood. Throws InputError for strands that are softened
   // already (StrandKind: yield_factor, stiffness_factor): heat does that here.

@@ -96,8 +96,8 @@ void visit_engine(State& state, const Visit& visit) {
 template <class AnyCheckpoint, class Visit>
 void visit_press(AnyCheckpoint& checkpoint, const Visit& visit) {
   auto& [panel, engine, records, pending, snapshots_done, balance_time, balance_top, balance_bottom, worst_imbalance,
-         worst_kinetic] = checkpoint;
-  static_cast<void>(std::tie(panel, engine, records, pending));  // in groups of their own
+         worst_kinetic, cycle] = checkpoint;
+  static_cast<void>(std::tie(panel, engine, records, pending, cycle));  // in groups of their own
   visit("snapshots_done", Label{"1", "compactions reached so far"}, snapshots_done);
   visit("balance_time_s", Label{"s", "time over which the platens' impulses are summed"}, balance_time);
   visit("balance_top_N_s", Label{"N s", "impulse on the top platen over that time"}, balance_top);
@@ -362,10 +362,16 @@ void write_records(Writer& out, const std::string& group, std::span<const press:
   }
 }
 
+// Older versions did not write it; there it is 0.
+bool is_new(std::string_view name) {
+  return name == "unconverged_contacts" || name == "softening_mJ" || name == "damping_mJ";
+}
+
 std::vector<press::Record> read_records(const Reader& in, const std::string& group) {
   const hsize_t count = in.length(group + "/" + kRecordFields[0].name);
   std::vector<press::Record> records(count);
   for (const auto& field : kRecordFields) {
+    if (is_new(field.name) && !in.has(group + "/" + field.name)) continue;
     const auto column = in.doubles(group + "/" + field.name, {count});
     for (std::size_t i = 0; i < count; ++i) records[i].*field.value = column[i];
   }
@@ -415,6 +421,8 @@ std::string checkpoint_bytes(const press::Checkpoint<Dim>& checkpoint, const std
   visit_press(checkpoint, [&](const char* name, const Label& label, auto value) {
     write_scalar(out, std::string("/press/") + name, value, label);
   });
+  if (!checkpoint.cycle.empty())
+    out.write("/cycle", {checkpoint.cycle.size()}, checkpoint.cycle, {"1", "state of the cycle of the hot press"});
   return out.finish();
 }
 
@@ -442,7 +450,7 @@ press::Checkpoint<Dim> read_checkpoint(const std::filesystem::path& file, const 
   checkpoint.panel = read_panel_group<Dim>(in);
   visit_engine(checkpoint.engine, [&](const char* name, const Label&, auto& value) {
     const std::string path = std::string("/engine/") + name;
-    if (std::string_view(name) == "unconverged_contacts" && !in.has(path)) return;  // not counted by older versions
+    if (is_new(name) && !in.has(path)) return;
     read_scalar(in, path, value);
   });
   checkpoint.records = read_records(in, "/records");
@@ -452,6 +460,7 @@ press::Checkpoint<Dim> read_checkpoint(const std::filesystem::path& file, const 
   visit_press(checkpoint, [&](const char* name, const Label&, auto& value) {
     read_scalar(in, std::string("/press/") + name, value);
   });
+  if (in.has("/cycle")) checkpoint.cycle = in.doubles("/cycle", {in.length("/cycle")});
   return checkpoint;
 }
 

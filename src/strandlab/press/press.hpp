@@ -54,6 +54,7 @@ struct Checkpoint {
   // Watch on inertia: platen impulses over the current two transits, and the worst of each measure so far.
   double balance_time_s = 0, balance_top = 0, balance_bottom = 0;
   double worst_imbalance = 0, worst_kinetic = 0;
+  std::vector<double> cycle;  // state of a hot press's cycle (hotpress/cycle.hpp); empty: a cold press
 };
 
 struct Progress {

@@ -140,7 +140,7 @@ Json to_json(const hotpress::Band& result) {
   const auto& d = a.density;
   Json resins = Json::array();
   for (const auto& r : a.resins) resins.push_back(to_json(r));
-  return {{"mechanics", result.cycle.settings.mechanics == hotpress::Mechanics::kColumn ? "column" : "uniform"},
+  return {{"mechanics", hotpress::name(result.cycle.settings.mechanics)},
           {"dry_mass_kg_m2", mat.dry_mass},
           {"press_time_to_cure_s", number(a.press_time)},
           {"press_factor_s_per_mm", number(a.press_factor, 1e-3)},

@@ -6,6 +6,7 @@
 
 #include "strandlab/case/estimate.hpp"
 #include "strandlab/run/duration.hpp"
+#include "strandlab/run/press_hot.hpp"
 #include "strandlab/run/profile_bins.hpp"
 
 namespace strandlab::run {
@@ -17,6 +18,8 @@ Progress progress_of(const press::Progress& p) {
                       p.step, 1e-6 * p.particle_steps_per_s, duration(p.eta_s))};
 }
 
+}  // namespace
+
 mpm::Options engine_options(const cases::Case& c) {
   auto options = c.mpm;
   options.threads = cases::thread_count(c);
@@ -24,15 +27,14 @@ mpm::Options engine_options(const cases::Case& c) {
   return options;
 }
 
-}  // namespace
-
-press::Outcome<2> press(const Formed& formed, press::Sink<2> keep, const std::optional<press::Checkpoint<2>>& resume,
-                        Observer& observer) {
+PressOutcome press(const Formed& formed, press::Sink<2> keep, const std::optional<press::Checkpoint<2>>& resume,
+                   Observer& observer) {
   const auto& c = formed.c;
+  if (cases::presses_hot(c)) return press_hot(formed, keep, resume, observer);
   keep.progress = [&observer](const press::Progress& p) { observer.progress(progress_of(p)); };
   keep.cancelled = [&observer] { return observer.cancelled(); };
   const auto setup = press::setup(formed.panel, c.grid, c.sides, engine_options(c));
-  auto outcome = press::press(formed.panel, c.schedule, setup, keep, resume);
+  PressOutcome outcome{press::press(formed.panel, c.schedule, setup, keep, resume), std::nullopt};
   for (const auto& warning : outcome.warnings) observer.warn(warning);
   return outcome;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "strandlab/hotpress/answers.hpp"
 #include "strandlab/press/press.hpp"
 #include "strandlab/profile/profile.hpp"
 #include "strandlab/report/findings.hpp"
@@ -20,19 +21,24 @@ struct Shapes {
   std::vector<profile::Profile> density_profiles;  // in bins of one cell of the press
 };
 
-struct Pressed {
-  std::vector<Panel<2>> panels;  // one per compaction of the case
-  press::Outcome<2> outcome;     // records, warnings, speed
+// Records, warnings, speed; of a mat that was pressed hot also its cycle, with its answers in a band of permeability.
+struct PressOutcome : press::Outcome<2> {
+  std::optional<hotpress::Band> cycle;
 };
 
-// Presses in memory: nothing is written. Throws RunError for a pressing that fails, Cancelled when the observer stops
-// it.
+struct Pressed {
+  std::vector<Panel<2>> panels;  // one per compaction of the case
+  PressOutcome outcome;
+};
+
+// Presses in memory, hot where the case says so (cases::presses_hot): nothing is written. Throws RunError for a
+// pressing that fails, Cancelled when the observer stops it.
 Pressed press(const Formed& formed, Observer& observer);
 
 // The same for who keeps panels, frames and checkpoints himself as they come, and may go on from one: `keep` is told
 // all but progress, which the observer hears.
-press::Outcome<2> press(const Formed& formed, press::Sink<2> keep, const std::optional<press::Checkpoint<2>>& resume,
-                        Observer& observer);
+PressOutcome press(const Formed& formed, press::Sink<2> keep, const std::optional<press::Checkpoint<2>>& resume,
+                   Observer& observer);
 
 // Of the panels of a formed mat's case, one per compaction.
 Shapes shapes_of(const cases::Case& c, const std::vector<Panel<2>>& panels);

@@ -11,6 +11,7 @@
 #include "strandlab/io/vtk.hpp"
 #include "strandlab/report/density_profiles.hpp"
 #include "strandlab/report/frames.hpp"
+#include "strandlab/report/hotpress_results.hpp"
 #include "strandlab/report/plots.hpp"
 #include "strandlab/report/section_picture.hpp"
 #include "strandlab/run/duration.hpp"
@@ -105,6 +106,15 @@ void write_what_follows(Journey& journey, const std::vector<press::Record>& reco
   warn_if(log, report::plot_thickness_strains(shapes.morphologies, pictures / "thickness_strains.png"));
 }
 
+// What a hot press's cycle says, beside what its panel does.
+void write_cycle(Journey& journey, const hotpress::Band& band) {
+  auto& folder = journey.folder;
+  report::hotpress_table(band.cycle).write(folder.file("hotpress.csv"));
+  report::profiles_table(band.cycle).write(folder.file("transfer_profiles.csv"));
+  folder.record()["hotpress"] = report::to_json(band);
+  for (const auto& line : report::summary(band)) journey.log.say(line);
+}
+
 void make_folders(const RunFolder& folder) {
   for (const auto* name : {"panels", "frames", "paraview", "pictures"}) fs::create_directories(folder.file(name));
 }
@@ -160,8 +170,10 @@ std::optional<press::Checkpoint<2>> begin(Journey& journey, const io::Checkpoint
   log.open(journey.folder.file("log.txt"));
   for (const auto& warning : warnings) log.warn(warning);
   for (const auto& line : cases::derived_constants(c)) log.say(line);
-  if (c.hotpress.given)
-    log.warn("the case has [hotpress], but this pressing is cold; strandlab hotpress presses its mat hot");
+  if (c.hotpress.given && !cases::presses_hot(c)) {
+    log.warn(fmt::format("hotpress.mechanics = \"{}\": this pressing is cold; strandlab hotpress presses its mat hot",
+                         c.hotpress.mechanics));
+  }
   const auto particles = cases::estimate(c, journey.formed.panel).particles;
   log.say(resume ? fmt::format("press: going on from compaction {:.4f}", resume->panel.compaction())
                  : fmt::format("press: {} particles on {} thread(s)", particles, cases::thread_count(c)));
@@ -193,6 +205,7 @@ void press_into(Journey& journey) {
   folder.forget(Step::kPage);
   make_folders(folder);
   const auto outcome = press(journey.formed, keep_in(journey, store), resume, journey.log);
+  if (outcome.cycle) write_cycle(journey, *outcome.cycle);
   report::press_table(outcome.records).write(folder.file("press.csv"));
   write_what_follows(journey, outcome.records, outcome.warnings);
   folder.record(Step::kPress).update(summary(outcome, cases::thread_count(journey.formed.c)));
