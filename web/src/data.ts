@@ -5,6 +5,7 @@ export interface Kind {
   material: string;
   angle_deg: number;
   angle_spread_deg?: number;
+  angle_sd_deg?: number;
   yield_factor?: number;
   stiffness_factor?: number;
 }

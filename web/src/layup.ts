@@ -7,6 +7,8 @@ function angles(kind: Kind): string {
   const spread = kind.angle_spread_deg ?? 0;
   if (spread >= 90) return 'at any angle';
   if (spread > 0) return `at ${kind.angle_deg}° ± ${spread}°`;
+  const sd = kind.angle_sd_deg ?? 0;
+  if (sd > 0) return `at ${kind.angle_deg}° with a standard deviation of ${sd}°`;
   return kind.angle_deg === 0 ? 'along the panel' : kind.angle_deg === 90 ? 'across the panel' : `at ${kind.angle_deg}°`;
 }
 

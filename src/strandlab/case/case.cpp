@@ -68,7 +68,8 @@ mat::LayupRow layup_row(const KindSettings& kind) {
   row.kind = kind.name;
   row.statistics = kind.statistics;
   if (kind.thickness_mm > 0) row.thickness_mm = kind.thickness_mm;
-  if (kind.angle_spread_deg > 0) row.angles_deg = mat::AngleRange{kind.angle_deg, kind.angle_spread_deg};
+  if (kind.angle_spread_deg > 0 || kind.angle_sd_deg > 0)
+    row.angles = mat::AngleDistribution{kind.angle_deg, kind.angle_spread_deg, kind.angle_sd_deg};
   return row;
 }
 

@@ -21,7 +21,7 @@ struct KindSettings {
   std::string material = "poplar";  // built in, or one of [materials]
   double angle_deg = 0;
   mat::StrandStatistics statistics;               // mm
-  double angle_spread_deg = 0;                    // each strand's angle is uniform within angle_deg +- this
+  double angle_spread_deg = 0, angle_sd_deg = 0;  // each strand's own angle, mat::AngleDistribution
   double thickness_mm = 0;                        // 0: layer_thickness_mm of the case
   double yield_factor = 1, stiffness_factor = 1;  // softening in the press, StrandKind
   wood::Law law = wood::Law::kCrushing;

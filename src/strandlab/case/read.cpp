@@ -522,6 +522,11 @@ void check_kind(const KindSettings& kind, const std::vector<Given>& given, const
          fmt::format("= {} mm: must not exceed the mean, gap_mm = {}: the truncated normal distribution degenerates",
                      s.gap_sd_mm, s.gap_mm));
   }
+  if (kind.angle_spread_deg > 0 && kind.angle_sd_deg > 0) {
+    fail("angle_sd_deg", fmt::format("= {} and angle_spread_deg = {}: strands have one distribution of angles, normal "
+                                     "or uniform; give one of the two",
+                                     kind.angle_sd_deg, kind.angle_spread_deg));
+  }
   if (s.length_mm == 0 && s.gap_mm > 0) {
     fail("length_mm",
          fmt::format("= 0 means that one strand fills the row, so gap_mm must be 0 too, not {}", s.gap_mm));

@@ -11,7 +11,6 @@
 namespace strandlab::mat {
 namespace {
 
-constexpr double kAnglesPerDegree = 1e3;                         // angles are whole multiples of its inverse
 constexpr std::uint64_t kAngleStreams = std::uint64_t{1} << 32;  // streams of rows' angles; those of places lie below
 
 Ticks ticks(double mm) {
@@ -60,16 +59,6 @@ void check_normal(const std::string& where, const char* name, double mean, doubl
   }
 }
 
-void check_angles(const std::string& where, const AngleRange& angles) {
-  if (!std::isfinite(angles.mean_deg)) {
-    throw InputError(fmt::format("{}: angle = {} degrees must be a finite number", where, angles.mean_deg));
-  }
-  if (!(angles.spread_deg >= 0) || !(angles.spread_deg <= 90)) {
-    throw InputError(
-        fmt::format("{}: angle spread = {} degrees must be between 0 and 90 (any angle)", where, angles.spread_deg));
-  }
-}
-
 void check(const Layup& layup) {
   const auto positive = [](const std::string& what, double value) {
     if (!(value >= kSmallestSize_mm) || !(value <= kLargestSize_mm)) {
@@ -85,7 +74,7 @@ void check(const Layup& layup) {
     const auto where = fmt::format("layup: row {} (\"{}\")", i + 1, row.kind);
     if (row.kind.empty()) throw InputError(fmt::format("{}: the strand kind has no name", where));
     if (row.thickness_mm) positive(where + ": thickness_mm", *row.thickness_mm);
-    if (row.angles_deg) check_angles(where, *row.angles_deg);
+    if (row.angles) mat::check(*row.angles, where);
     if (fills_row(row.statistics)) continue;
     check_normal(where, "length", row.statistics.length_mm, row.statistics.length_sd_mm, kSmallestSize_mm);
     check_normal(where, "gap", row.statistics.gap_mm, row.statistics.gap_sd_mm, 0);
@@ -111,21 +100,16 @@ std::vector<Strand> form_row(const LayupRow& row, Ticks window, RandomStream ran
   return strands;
 }
 
-// Uniform within the range, rounded: the same on every machine.
-double draw_angle(const AngleRange& angles, RandomStream& random) {
-  const double angle = angles.mean_deg + angles.spread_deg * (2 * random.uniform() - 1);
-  return static_cast<double>(std::llround(angle * kAnglesPerDegree)) / kAnglesPerDegree;
-}
-
 Layer form_layer(const Layup& layup, std::size_t i, Ticks window, std::uint64_t seed) {
   const auto& row = layup.rows[i];
   Layer layer;
   layer.role = row.kind;
   if (row.thickness_mm && *row.thickness_mm != layup.layer_thickness_mm) layer.thickness_mm = row.thickness_mm;
   layer.strands = form_row(row, window, RandomStream(seed, i));
-  if (row.angles_deg) {
+  if (row.angles) {
+    const AngleSampler angles(*row.angles);
     RandomStream random(seed, kAngleStreams + i);
-    for (auto& strand : layer.strands) strand.angle_deg = draw_angle(*row.angles_deg, random);
+    for (auto& strand : layer.strands) strand.angle_deg = angles.draw(random);
   }
   return layer;
 }

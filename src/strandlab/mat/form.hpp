@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "strandlab/mat/angles.hpp"
 #include "strandlab/mat/mat.hpp"
 
 namespace strandlab::mat {
@@ -21,16 +22,12 @@ struct StrandStatistics {
   double gap_mm = 15, gap_sd_mm = 4.95;
 };
 
-// Grain angles of the strands of a row, uniform within mean +- spread; each strand draws its own.
-struct AngleRange {
-  double mean_deg = 0, spread_deg = 0;
-};
-
 struct LayupRow {
   std::string kind;  // strand kind, becomes the layer's role
   StrandStatistics statistics;
-  std::optional<double> thickness_mm = {};    // else the layup's layer_thickness_mm
-  std::optional<AngleRange> angles_deg = {};  // else all strands have the angle of their kind, and the mat names none
+  std::optional<double> thickness_mm = {};  // else the layup's layer_thickness_mm
+  std::optional<AngleDistribution> angles =
+      {};  // else all strands have the angle of their kind, and the mat names none
 };
 
 struct Layup {
@@ -42,8 +39,8 @@ struct Layup {
 // The mat of a layup: rows are independent and stationary (row.hpp), cut to the window. Throws InputError (row, what is
 // wrong) when a truncated distribution degenerates (sd > mean), a size is not positive, or a window shorter than a gap
 // leaves a row without strands. The same seed gives the same mat, to the last bit of its file, on every machine:
-// counter-based random stream keyed by (seed, row), places drawn on the 1e-6 mm raster of the file, angles on one of
-// .001 degrees. Angles have streams of their own: the places of strands do not depend on them.
+// counter-based random stream keyed by (seed, row), places drawn on the 1e-6 mm raster of the file. Angles have streams
+// of their own: the places of strands do not depend on them.
 Mat form(const Layup& layup, std::uint64_t seed);
 
 }  // namespace strandlab::mat

@@ -37,11 +37,6 @@ std::vector<theory::Piece> pieces_of(const mat::Mat& mat, std::size_t layer, con
   return pieces;
 }
 
-double spread_of(const cases::Case& c, const std::string& name) {
-  const auto kind = std::find_if(c.kinds.begin(), c.kinds.end(), [&](const auto& k) { return k.name == name; });
-  return kind == c.kinds.end() ? 0 : kind->angle_spread_deg;
-}
-
 }  // namespace
 
 std::vector<theory::Row> theory_rows(const cases::Case& c, const mat::Mat& mat) {
@@ -53,7 +48,9 @@ std::vector<theory::Row> theory_rows(const cases::Case& c, const mat::Mat& mat) 
       rows.push_back(row_of_kind(kinds, given.kind));
       rows.back().statistics = given.statistics;
       rows.back().thickness_mm = given.thickness_mm.value_or(layup.layer_thickness_mm);
-      rows.back().angle_spread_deg = spread_of(c, given.kind);
+      const auto angles = given.angles.value_or(mat::AngleDistribution{});
+      rows.back().angle_spread_deg = angles.spread_deg;
+      rows.back().angle_sd_deg = angles.sd_deg;
     }
     return rows;
   }

@@ -41,11 +41,27 @@ double mean_within(double angle, double spread, const Function& value) {
   return sum / kAngles;
 }
 
+// Mean over normal angles: equally spaced ones to 7 standard deviations, by their density.
+template <typename Function>
+double normal_mean(double angle, double sd, const Function& value) {
+  constexpr int kAngles = 360;
+  double sum = 0, weights = 0;
+  for (int i = 0; i <= kAngles; ++i) {
+    const double deviation = 7 * (2.0 * i / kAngles - 1), weight = std::exp(-0.5 * square(deviation));
+    sum += weight * value(angle + sd * deviation);
+    weights += weight;
+  }
+  return sum / weights;
+}
+
 // Mean of value(material, angle) over the wood of a row.
 template <typename Function>
 double mean_over(const Row& row, const Function& value) {
-  if (row.pieces.empty())
-    return mean_within(row.angle_deg, row.angle_spread_deg, [&](double angle) { return value(row.material, angle); });
+  if (row.pieces.empty()) {
+    const auto at = [&](double angle) { return value(row.material, angle); };
+    return row.angle_sd_deg > 0 ? normal_mean(row.angle_deg, row.angle_sd_deg, at)
+                                : mean_within(row.angle_deg, row.angle_spread_deg, at);
+  }
   double sum = 0, wood = 0;
   for (const Piece& piece : row.pieces) {
     sum += piece.length_mm * value(piece.material, piece.angle_deg);
@@ -91,7 +107,7 @@ double solid_fraction(const mat::StrandStatistics& s) {
 }
 
 bool runs_along(const Row& row) {
-  if (row.pieces.empty()) return off_grain(row.angle_deg) + row.angle_spread_deg < 45;
+  if (row.pieces.empty()) return off_grain(row.angle_deg) + row.angle_spread_deg + row.angle_sd_deg < 45;
   return std::all_of(row.pieces.begin(), row.pieces.end(),
                      [](const Piece& piece) { return off_grain(piece.angle_deg) < 45; });
 }

@@ -27,13 +27,14 @@ struct Row {
   double angle_deg = 0;              // grain against the section: 0 surface, 90 core
   mat::StrandStatistics statistics;  // mm along the section; length 0 and gap 0: one strand fills the row
   double thickness_mm = 0.8;
-  double angle_spread_deg = 0;     // angles of its strands are uniform within angle_deg +- this
-  std::vector<Piece> pieces = {};  // where they are known: in place of one material and angle for all
+  double angle_spread_deg = 0, angle_sd_deg = 0;  // of its strands' angles, mat::AngleDistribution
+  std::vector<Piece> pieces = {};                 // where they are known: in place of one material and angle for all
 };
 
 // Mean <L>/(<L> + <G>), the part of a row that is wood; 1 for a full row.
 double solid_fraction(const mat::StrandStatistics& statistics);
-// Grain of every strand within 45 degrees of the section: these rows carry the load, the others are core.
+// Grain within 45 degrees of the section, of every strand or, where angles are normal, to one standard deviation: these
+// rows carry the load, the others are core.
 bool runs_along(const Row& row);
 
 // --- a strand ---

@@ -213,6 +213,11 @@ TEST(CaseRead, KindsMayDifferInThicknessAndAngles) {
   EXPECT_EQ(mat.thickness_of(1), .7);
   EXPECT_FALSE(mat.layers[0].strands[0].angle_deg);
   for (const auto& strand : mat.layers[1].strands) EXPECT_NEAR(strand.angle_deg.value(), 10, 5);
+  const auto normal = make_mat(changed(c, {"kinds.core.angle_spread_deg=0", "kinds.core.angle_sd_deg=25"}, "panel"));
+  for (std::size_t i = 0; i < normal.layers[1].strands.size(); ++i) {
+    EXPECT_EQ(normal.layers[1].strands[i].x0_mm, mat.layers[1].strands[i].x0_mm);
+    EXPECT_NE(normal.layers[1].strands[i].angle_deg, mat.layers[1].strands[i].angle_deg);
+  }
   settle_states(c, mat);
   const auto panel = make_panel(c, mat);
   EXPECT_DOUBLE_EQ(panel.initial_thickness_mm, 2.1);
@@ -287,6 +292,9 @@ TEST(CaseRead, BadInputIsAnsweredByFileLineKeyGivenAndAllowed) {
       {"[kinds.core]\nmaterial = \"popla\"", {"one of poplar, vtc", "did you mean poplar?"}},
       {"[kinds.core]\nthickness_mm = -1", {"panel.toml:2", "kinds.core.thickness_mm = -1 mm", "0, or from 0.001 to"}},
       {"[kinds.core]\nangle_spread_deg = 100", {"kinds.core.angle_spread_deg = 100 degrees", "from 0 to 90"}},
+      {"[kinds.core]\nangle_sd_deg = 91", {"kinds.core.angle_sd_deg = 91 degrees", "from 0 to 90"}},
+      {"[kinds.core]\nangle_sd_deg = 25\nangle_spread_deg = 10",
+       {"panel.toml:2: kinds.core.angle_sd_deg = 25", "angle_spread_deg = 10", "give one of the two"}},
       {"[kinds.core]\nyield_factor = 0", {"kinds.core.yield_factor = 0", "greater than 0 and at most 1"}},
       {"[kinds.core]\nstiffness_factor = 2", {"kinds.core.stiffness_factor = 2", "greater than 0 and at most 1"}},
       {"[materials.m]\nspecies = \"douglas fir\"",

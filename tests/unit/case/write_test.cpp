@@ -128,7 +128,7 @@ TEST(CaseWrite, PanelsWithDensifiedStrandsHaveTheirRows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const bool surface = i < expected.surface || i >= expected.surface + expected.core;
       EXPECT_EQ(rows[i].kind, surface ? "surface" : "core") << expected.name;
-      const double spread_deg = rows[i].angles_deg.value_or(mat::AngleRange{}).spread_deg;
+      const double spread_deg = rows[i].angles.value_or(mat::AngleDistribution{}).spread_deg;
       EXPECT_EQ(spread_deg, surface ? 0 : expected.spread_deg) << expected.name;
     }
     EXPECT_EQ(rows.front().statistics.length_mm, expected.length_mm) << expected.name;

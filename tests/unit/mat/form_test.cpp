@@ -205,7 +205,7 @@ TEST(Form, SameMatOnEveryMachine) {
 TEST(Form, SameAnglesOnEveryMachine) {
   Layup layup;
   layup.length_mm = 60;
-  layup.rows = {{"surface", kSurface}, {"core", kCore, {}, AngleRange{0, 90}}};
+  layup.rows = {{"surface", kSurface}, {"core", kCore, {}, AngleDistribution{0, 90}}};
   EXPECT_EQ(to_text(form(layup, 1)),
             "{\"length_mm\":60.0, \"layer_thickness_mm\":0.8,\n \"layers\":[\n"
             "  {\"role\":\"surface\", \"strands\":[{\"x0\":0.0,\"x1\":60.0}]},\n"
@@ -217,7 +217,7 @@ TEST(Form, SameAnglesOnEveryMachine) {
 // strands are independent: their correlation is within three of its standard errors, 1/sqrt(n).
 TEST(Form, AnglesAreUniformAndIndependent) {
   constexpr int kBins = 18;
-  for (const auto& range : {AngleRange{0, 90}, AngleRange{-20, 30}}) {
+  for (const auto& range : {AngleDistribution{0, 90}, AngleDistribution{-20, 30}}) {
     Layup layup;
     layup.length_mm = 1000;
     layup.rows.assign(200, {"core", kCore, {}, range});
@@ -328,17 +328,17 @@ INSTANTIATE_TEST_SUITE_P(
         BadLayup{"NoThickness", [](Layup& l) { l.rows[1].thickness_mm = 0; }, {"row 2 (\"core\")", "thickness_mm = 0"}},
         BadLayup{"SpreadBeyondAnyAngle",
                  [](Layup& l) {
-                   l.rows[1].angles_deg = AngleRange{0, 91};
+                   l.rows[1].angles = AngleDistribution{0, 91};
                  },
                  {"row 2 (\"core\")", "angle spread = 91", "between 0 and 90"}},
         BadLayup{"NegativeSpread",
                  [](Layup& l) {
-                   l.rows[1].angles_deg = AngleRange{0, -1};
+                   l.rows[1].angles = AngleDistribution{0, -1};
                  },
                  {"angle spread = -1"}},
         BadLayup{"NanAngle",
                  [](Layup& l) {
-                   l.rows[1].angles_deg = AngleRange{std::nan(""), 1};
+                   l.rows[1].angles = AngleDistribution{std::nan(""), 1};
                  },
                  {"angle = nan"}},
         BadLayup{"NoRows", [](Layup& l) { l.rows.clear(); }, {"no rows"}},

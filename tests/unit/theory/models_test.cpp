@@ -150,6 +150,19 @@ TEST(Theory, RowsOfRandomAngles) {
   EXPECT_NEAR(tension_modulus_MPa({core}, 0), poplar().E_L + second * .01 / 6, 1e-3);
 }
 
+// Normal angles: of a small standard deviation s the mean is E(0) + E''(0) s^2/2; of a large one it is that of any
+// angle.
+TEST(Theory, RowsOfNormalAngles) {
+  Row row = full_row();
+  row.angle_sd_deg = .1;
+  const double second = (off_axis_modulus_MPa(poplar(), 1) - poplar().E_L) * 2;       // per square degree
+  EXPECT_NEAR(tension_modulus_MPa({row}, 0), poplar().E_L + second * .01 / 2, 2e-3);  // second is good to 3e-3
+  EXPECT_TRUE(runs_along(row));
+  row.angle_sd_deg = 90;
+  EXPECT_NEAR(tension_modulus_MPa({row}, 0, OffAxis::kExact) / plane_strain_average_MPa(poplar()), 1, .02);
+  EXPECT_FALSE(runs_along(row));
+}
+
 TEST(Theory, DensityAndModulusGrowTogether) {
   const auto rows = default_osb();
   EXPECT_NEAR(density_kg_m3(rows, 0), 350 * (150.0 / 165 + 25.0 / 35) / 2, 1e-9);
