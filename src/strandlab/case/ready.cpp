@@ -78,12 +78,13 @@ const std::vector<Ready>& table() {
                "of glue."),
        ""},
       {"hot_osb",
-       "Three-layer OSB of 12 mm and 640 kg/m3 for the hot press: PF in the faces, pMDI in the core.\n"
-       "`strandlab hotpress` presses it as a column (docs/hotpress.md): how long to press, at what pressure, with "
-       "what\n"
-       "density profile. `strandlab run` still presses it cold, with softened faces and core in place of heat.",
-       "[mat]\nrows = [\"surface*8\", \"core*18\", \"surface*8\"]\n"
-       "[hotpress]\nschedule = [\"close to 640 kg/m3 in 25 s\", \"hold until 180 s\", \"vent 15 s\", \"open 60 s\"]\n"},
+       "Three-layer OSB of 640 kg/m3 and about 12 mm from the hot press: strands of all angles about their layer's, "
+       "PF\n"
+       "in the faces, pMDI in the core (docs/hotpress.md). `strandlab run` presses it strand by strand; `strandlab "
+       "hotpress`\nanswers in a second how long to press, with a column of its layers.",
+       "[mat]\nlength_mm = 60\nrows = [\"surface*8\", \"core*18\", \"surface*8\"]\n"
+       "[kinds.surface]\nangle_sd_deg = 25\nyield_factor = 1\n[kinds.core]\nangle_sd_deg = 25\nyield_factor = 1\n"
+       "[hotpress]\n"},
       {"osl", pressed("Oriented strand lumber: 20 rows of strands along the panel, pressed to 640 kg/m3."),
        fmt::format("[mat]\n{}", kAlong)},
       {"plywood", pressed("Plywood: the rows of the OSB case without gaps, pressed to 640 kg/m3."),
