@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/glue/rules.hpp"
 
 namespace strandlab::glue {
 namespace {
@@ -93,11 +94,6 @@ std::optional<double> meet(const Face& a, double s, const Face& b) {
   const double before = side(low), after = side(high);
   return low + (before > after ? std::clamp(before / (before - after), 0.0, 1.0) : 0.5);
 }
-
-// Faces look at each other where their outward normals are more than 120 degrees apart. Judgement: those of flat
-// strands are 180 degrees apart; it keeps the faces of a strand end that the press folded over from bonding to what
-// they slid along.
-constexpr double kFaceToFace = -0.5;  // cosine
 
 // The place on b that lies opposite a place on a, and the gap along the mean of the two normals.
 struct Facing {
@@ -225,11 +221,7 @@ Faces make_faces(const Panel<2>& panel) {
   return faces;
 }
 
-// How far two strands in contact may overlap, mm: half of the thinner one. Judgement; contact on the grid lets them
-// overlap by a part of a cell.
-double overlap_in_contact(const Strand<2>& a, const Strand<2>& b) {
-  return 0.5 * std::min(a.lattice.thickness(), b.lattice.thickness());
-}
+}  // namespace
 
 void check(const CuringOptions& options) {
   if (!(options.max_gap_mm > 0) || !std::isfinite(options.max_gap_mm)) {
@@ -242,8 +234,6 @@ void check(const CuringOptions& options) {
   }
 }
 
-}  // namespace
-
 std::vector<GluePoint<2>> cure(const Panel<2>& panel, const CuringOptions& options) {
   check(options);
   const auto faces = make_faces(panel);
@@ -251,7 +241,8 @@ std::vector<GluePoint<2>> cure(const Panel<2>& panel, const CuringOptions& optio
   std::vector<std::vector<Neighbour>> over(panel.strands.size()), under(panel.strands.size());
   for (int a = 0; a < strands; ++a) {
     for (int b = 0; b < strands; ++b) {
-      const double overlap = overlap_in_contact(panel.strands[a], panel.strands[b]);
+      const double overlap =
+          overlap_in_contact(panel.strands[a].lattice.thickness(), panel.strands[b].lattice.thickness());
       const bool above = panel.strands[b].row > panel.strands[a].row;
       if (!above || !near(faces.top_boxes[a], faces.bottom_boxes[b], std::max(options.max_gap_mm, overlap))) continue;
       over[a].push_back({&faces.bottoms[b], -overlap, b});

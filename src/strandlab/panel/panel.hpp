@@ -42,7 +42,8 @@ struct Strand {
 template <int Dim>
 struct Panel {
   double length_mm = 0;              // along x, window 0..length
-  double depth_mm = 1;               // across; 1 for a section
+  double depth_mm = 1;               // across, along y in 3D; 1 for a section
+  bool periodic = false;             // 3D: the window is a torus, on which strands meet the images of others
   double initial_thickness_mm = 0;   // platen gap of the mat as formed
   double bottom_mm = 0, top_mm = 0;  // platen faces now; thickness = top - bottom
   double time_s = 0;
