@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "strandlab/core/elementary.hpp"
+
 namespace strandlab {
 namespace {
 
@@ -11,23 +13,6 @@ double polynomial(const std::array<double, N>& coefficient, double x) {
   double sum = coefficient[N - 1];
   for (std::size_t i = N - 1; i-- > 0;) sum = sum * x + coefficient[i];
   return sum;
-}
-
-// Natural logarithm from exact scaling and the series ln m = 2 artanh s, s = (m - 1)/(m + 1), |s| <= 0.172; error about
-// 1e-16, the same bits on every machine.
-double portable_log(double x) {
-  constexpr double kLn2 = 0.693147180559945309417232;
-  constexpr double kSqrtHalf = 0.707106781186547524400844;
-  int exponent = 0;
-  double m = std::frexp(x, &exponent);
-  if (m < kSqrtHalf) {
-    m *= 2;
-    --exponent;
-  }
-  const double s = (m - 1) / (m + 1), s2 = s * s;
-  double series = 0;
-  for (int k = 12; k >= 0; --k) series = series * s2 + 1.0 / (2 * k + 1);
-  return exponent * kLn2 + 2 * s * series;
 }
 
 }  // namespace

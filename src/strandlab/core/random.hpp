@@ -12,8 +12,7 @@ std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, st
 
 // Standard normal deviate whose distribution function is p (0 < p < 1): Wichura (1988), Applied Statistics 37, 477-484,
 // algorithm AS 241 (PPND16), relative accuracy about 1e-16.
-// Only + - * / and square root are used, which IEEE 754 rounds alike everywhere; the logarithm of the tails is our own,
-// because those of the C libraries differ in the last bit. The source file is compiled without contraction to fused
+// The same bits on every machine, as those of elementary.hpp: the source file is compiled without contraction to fused
 // operations.
 double normal_quantile(double p);
 

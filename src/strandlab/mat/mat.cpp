@@ -8,86 +8,18 @@
 #include <numeric>
 
 #include "strandlab/core/error.hpp"
-#include "strandlab/core/nearest.hpp"
-#include "strandlab/core/text.hpp"
 #include "strandlab/files/atomic_file.hpp"
 #include "strandlab/files/json_text.hpp"
+#include "strandlab/mat/file_format.hpp"
 
 namespace strandlab::mat {
 namespace {
-
-using Json = nlohmann::json;
-using Keys = std::vector<std::string>;
 
 const Keys kMatKeys{"length_mm", "layer_thickness_mm", "layers"};
 const Keys kLayerKeys{"role", "thickness_mm", "strands"};
 const Keys kStrandKeys{"x0", "x1", "angle_deg", "material"};
 
-constexpr double kResolution = 1e6;      // coordinates are whole multiples of 1/kResolution mm
-constexpr double kLongestMat = 1e9;      // mm
-constexpr double kThinnestLayer = 1e-3;  // mm
-constexpr double kMostThrough = 1e6;     // points through a layer: beyond any memory, within an int
-
-[[noreturn]] void reject(const std::string& where, const std::string& what) {
-  throw InputError(fmt::format("{}: {}", where, what));
-}
-
-// Nearest double to a coordinate rounded to 1e-6 mm: the number that the file's text reads back as.
-double on_raster(double mm) {
-  return std::round(mm * kResolution) / kResolution;
-}
-
-std::string at_layer(const std::string& source, std::size_t layer) {
-  return fmt::format("{}: layer {}", source, layer + 1);
-}
-std::string at_strand(const std::string& layer, std::size_t strand) {
-  return fmt::format("{}, strand {}", layer, strand + 1);
-}
-
-// A JSON value as a message shows it: short, whatever it is.
-std::string shown(const Json& value) {
-  return shortened(value.dump(-1, ' ', false, Json::error_handler_t::replace), 40);
-}
-
-const Json& member(const Json& object, const char* key, const Keys& known, const std::string& where) {
-  const auto found = object.find(key);
-  if (found != object.end()) return *found;
-  std::string hint;
-  for (const auto& item : object.items()) {
-    const bool unknown = std::find(known.begin(), known.end(), item.key()) == known.end();
-    if (unknown && nearest(item.key(), {key}) == key)
-      hint = fmt::format("; is \"{}\" a misspelling of it?", item.key());
-  }
-  reject(where, fmt::format("key \"{}\" is missing{}", key, hint));
-}
-
-double number(const Json& value, const char* key, const char* unit, const std::string& where) {
-  if (!value.is_number()) reject(where, fmt::format("{} = {} must be a number ({})", key, shown(value), unit));
-  return value.get<double>();
-}
-
-std::string text(const Json& value, const char* key, const std::string& where) {
-  if (!value.is_string()) reject(where, fmt::format("{} = {} must be a text in quotes", key, shown(value)));
-  return value.get<std::string>();
-}
-
-const Json& list(const Json& value, const char* key, const std::string& where) {
-  if (!value.is_array()) reject(where, fmt::format("{} = {} must be a list", key, shown(value)));
-  return value;
-}
-
-void require_object(const Json& value, const std::string& where) {
-  if (!value.is_object()) reject(where, fmt::format("found {} in place of an object {{...}}", shown(value)));
-}
-
-// The members of an object besides the known ones, as text; keys in alphabetical order.
-std::string others(const Json& object, const Keys& known) {
-  Json extra = Json::object();
-  for (const auto& item : object.items()) {
-    if (std::find(known.begin(), known.end(), item.key()) == known.end()) extra[item.key()] = item.value();
-  }
-  return extra.empty() ? "" : extra.dump();
-}
+constexpr double kMostThrough = 1e6;  // points through a layer: beyond any memory, within an int
 
 Strand strand_from(const Json& json, const std::string& where) {
   require_object(json, where);
@@ -115,6 +47,9 @@ Layer layer_from(const Json& json, const std::string& where) {
 
 Mat mat_from(const Json& json, const std::string& source) {
   require_object(json, source);
+  if (dimensions(json, source) == 3) {
+    reject(source, "\"dim\":3 makes it the mat of a plate (3D); here a section mat is read, whose file has no \"dim\"");
+  }
   Mat mat;
   mat.length_mm = on_raster(number(member(json, "length_mm", kMatKeys, source), "length_mm", "mm", source));
   mat.layer_thickness_mm =
@@ -123,11 +58,6 @@ Mat mat_from(const Json& json, const std::string& source) {
   for (std::size_t i = 0; i < layers.size(); ++i) mat.layers.push_back(layer_from(layers[i], at_layer(source, i)));
   mat.extra = others(json, kMatKeys);
   return mat;
-}
-
-void check_thickness(const char* key, double thickness_mm, const std::string& where) {
-  if (thickness_mm >= kThinnestLayer && thickness_mm <= kLongestMat) return;
-  reject(where, fmt::format("{} = {} must be between {} and {} mm", key, thickness_mm, kThinnestLayer, kLongestMat));
 }
 
 void check_strand(const Mat& mat, const Strand& s, const std::string& where) {
@@ -167,26 +97,6 @@ void check_overlap(const std::vector<Strand>& strands, const std::string& where)
   }
 }
 
-void check_role(const std::string& role, const Keys& kinds, const std::string& where) {
-  if (role.empty()) reject(where, "role must not be empty; it names a strand kind");
-  if (kinds.empty() || std::find(kinds.begin(), kinds.end(), role) != kinds.end()) return;
-  const auto near = nearest(role, kinds);
-  reject(where, fmt::format("unknown role \"{}\"{}; the strand kinds are {}", shortened(role),
-                            near.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", near), quoted_list(kinds)));
-}
-
-// A coordinate on the raster with no more digits than it needs, but at least one decimal: 0.0, 91.73.
-std::string coordinate(double mm) {
-  auto digits = fmt::format("{:.6f}", on_raster(mm) + 0.0);
-  while (digits.back() == '0' && digits[digits.size() - 2] != '.') digits.pop_back();
-  return digits;
-}
-
-// Extra keys as further members of an object: the text within their braces after a separator.
-std::string members(const std::string& extra, const char* separator) {
-  return extra.size() > 2 ? separator + extra.substr(1, extra.size() - 2) : "";
-}
-
 std::string strand_text(const Strand& s) {
   auto out = fmt::format("{{\"x0\":{},\"x1\":{}", coordinate(s.x0_mm), coordinate(s.x1_mm));
   if (s.angle_deg) out += ",\"angle_deg\":" + Json(*s.angle_deg).dump();
@@ -205,26 +115,15 @@ std::string layer_text(const Layer& layer) {
 }  // namespace
 
 double Mat::thickness_of(std::size_t layer) const {
-  return layers[layer].thickness_mm.value_or(layer_thickness_mm);
+  return mat::thickness_of(*this, layer);
 }
 
-// Layers that are alike are counted, not summed: twenty of .8 mm are 16 mm to the last bit.
 double Mat::height_below(std::size_t layer) const {
-  double own = 0;
-  std::size_t alike = 0;
-  for (std::size_t i = 0; i < layer; ++i) {
-    if (layers[i].thickness_mm)
-      own += *layers[i].thickness_mm;
-    else
-      ++alike;
-  }
-  return own + layer_thickness_mm * static_cast<double>(alike);
+  return mat::height_below(*this, layer);
 }
 
 double thinnest_layer(const Mat& mat) {
-  double thinnest = mat.thickness_of(0);
-  for (std::size_t i = 1; i < mat.layers.size(); ++i) thinnest = std::min(thinnest, mat.thickness_of(i));
-  return thinnest;
+  return mat::thinnest(mat);
 }
 
 int through(double thickness_mm, double thinnest_mm, int through_thinnest) {
