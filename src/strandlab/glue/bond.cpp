@@ -37,6 +37,11 @@ BondStiffness stiffness(const Bond& bond, double penalty) {
   return s;
 }
 
+Bond unfinished(const Bond& bond, double quality) {
+  if (quality >= 1) return bond;
+  return {taken(bond.compliance_t) / quality + (1 / quality - 1) * kUnfinished, bond.compliance_n};
+}
+
 std::vector<std::string> remarks(const Bond& bond) {
   std::vector<std::string> sentences;
   add_remark("D_n", bond.compliance_n, sentences);

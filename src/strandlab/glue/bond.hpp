@@ -30,6 +30,16 @@ struct BondStiffness {
 // No softer than kSoftest. `penalty` (MPa/mm) is the stiffness that stands for a perfect bond, and for one as stiff.
 BondStiffness stiffness(const Bond& bond, double penalty);
 
+// Of a bond without strength there is no glue line at all: quality below this.
+inline constexpr double kLeastQuality = .05;
+// 1/D_t of a bond of little resin (PF on a quarter of the face, Le 2010, Table 2.1), mm/MPa: what an unfinished bond
+// adds.
+inline constexpr double kUnfinished = .0105;
+
+// A bond that is unfinished, of quality Q in kLeastQuality..1: (1/D_t)/Q + (1/Q - 1) kUnfinished, so that a perfect
+// bond is perfect only where it is finished; across the line it stays as it is. Judgement.
+Bond unfinished(const Bond& bond, double quality);
+
 // What is not taken as it is given (a negative compliance, one beyond the softest), as sentences.
 std::vector<std::string> remarks(const Bond& bond);
 

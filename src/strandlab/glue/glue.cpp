@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/glue/bond.hpp"
+#include "strandlab/glue/rules.hpp"
 
 namespace strandlab::glue {
 namespace {
@@ -94,11 +96,6 @@ std::optional<double> meet(const Face& a, double s, const Face& b) {
   return low + (before > after ? std::clamp(before / (before - after), 0.0, 1.0) : 0.5);
 }
 
-// Faces look at each other where their outward normals are more than 120 degrees apart. Judgement: those of flat
-// strands are 180 degrees apart; it keeps the faces of a strand end that the press folded over from bonding to what
-// they slid along.
-constexpr double kFaceToFace = -0.5;  // cosine
-
 // The place on b that lies opposite a place on a, and the gap along the mean of the two normals.
 struct Facing {
   double place;
@@ -175,7 +172,15 @@ struct Line {
   double first, last;  // the stretch, on face a
 };
 
-void append_points(const Pair& pair, const Line& line, std::vector<GluePoint<2>>& points) {
+// Of a strand's resin at a point of its face; 1 where the panel does not know.
+double quality_at(const Panel<2>& panel, const FacePoint<2>& at) {
+  const auto& strand = panel.strands[static_cast<std::size_t>(at.strand)];
+  if (strand.points.bond_quality.empty()) return 1;
+  return strand.points
+      .bond_quality[strand.lattice.point({at.segment, at.side == Side::kTop ? strand.lattice.counts[1] - 1 : 0})];
+}
+
+void append_points(const Panel<2>& panel, const Pair& pair, const Line& line, std::vector<GluePoint<2>>& points) {
   const double step = (line.last - line.first) / line.intervals;
   for (int k = 0; k <= line.intervals; ++k) {
     const double s = k == line.intervals ? line.last : line.first + k * step;
@@ -188,7 +193,8 @@ void append_points(const Pair& pair, const Line& line, std::vector<GluePoint<2>>
     point.gap = (point.b.position - point.a.position).dot(point.normal);
     point.area =
         pair.a.arc_at(std::min(s + 0.5 * step, line.last)) - pair.a.arc_at(std::max(s - 0.5 * step, line.first));
-    points.push_back(point);
+    point.quality = .5 * (quality_at(panel, point.a) + quality_at(panel, point.b));
+    if (point.quality >= kLeastQuality) points.push_back(point);
   }
 }
 
@@ -225,11 +231,7 @@ Faces make_faces(const Panel<2>& panel) {
   return faces;
 }
 
-// How far two strands in contact may overlap, mm: half of the thinner one. Judgement; contact on the grid lets them
-// overlap by a part of a cell.
-double overlap_in_contact(const Strand<2>& a, const Strand<2>& b) {
-  return 0.5 * std::min(a.lattice.thickness(), b.lattice.thickness());
-}
+}  // namespace
 
 void check(const CuringOptions& options) {
   if (!(options.max_gap_mm > 0) || !std::isfinite(options.max_gap_mm)) {
@@ -242,8 +244,6 @@ void check(const CuringOptions& options) {
   }
 }
 
-}  // namespace
-
 std::vector<GluePoint<2>> cure(const Panel<2>& panel, const CuringOptions& options) {
   check(options);
   const auto faces = make_faces(panel);
@@ -251,7 +251,8 @@ std::vector<GluePoint<2>> cure(const Panel<2>& panel, const CuringOptions& optio
   std::vector<std::vector<Neighbour>> over(panel.strands.size()), under(panel.strands.size());
   for (int a = 0; a < strands; ++a) {
     for (int b = 0; b < strands; ++b) {
-      const double overlap = overlap_in_contact(panel.strands[a], panel.strands[b]);
+      const double overlap =
+          overlap_in_contact(panel.strands[a].lattice.thickness(), panel.strands[b].lattice.thickness());
       const bool above = panel.strands[b].row > panel.strands[a].row;
       if (!above || !near(faces.top_boxes[a], faces.bottom_boxes[b], std::max(options.max_gap_mm, overlap))) continue;
       over[a].push_back({&faces.bottoms[b], -overlap, b});
@@ -269,7 +270,8 @@ std::vector<GluePoint<2>> cure(const Panel<2>& panel, const CuringOptions& optio
         const double on_b = std::abs(*glued(pair, last) - *glued(pair, first)) * upper.lattice.spacing[0];
         const double length = 0.5 * ((last - first) * lower.lattice.spacing[0] + on_b);  // as formed
         if (length < 1e-3 * spacing) continue;                                           // a touch, not a line
-        append_points(pair, {a, b, std::max(1, static_cast<int>(std::lround(length / spacing))), first, last}, points);
+        append_points(panel, pair, {a, b, std::max(1, static_cast<int>(std::lround(length / spacing))), first, last},
+                      points);
       }
     }
   }

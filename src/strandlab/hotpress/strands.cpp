@@ -343,6 +343,7 @@ Panel<2> StrandMechanics::panel(const std::vector<Reading>& cells) const {
     fill(points.moisture, &Reading::M);
     fill(points.gas, &Reading::gas);
     fill(points.cure, &Reading::cure);
+    fill(points.bond_quality, &Reading::quality);
     n += strand.size();
   }
   return panel;

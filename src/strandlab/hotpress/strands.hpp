@@ -45,7 +45,7 @@ class StrandMechanics final : public MatMechanics {
   // The panel now, its points with temperature, moisture, gas pressure and cure as a reading of the cells says (bottom
   // to top).
   struct Reading {
-    double T, M, gas, cure;  // C, kg/kg, kPa above the room's, 1
+    double T, M, gas, cure, quality;  // C, kg/kg, kPa above the room's; of the layer's resin
   };
   Panel<2> panel(const std::vector<Reading>& cells) const;
   press::Checkpoint<2> checkpoint() const;

@@ -90,6 +90,11 @@ constexpr std::array<LatticeFace, 2 * Dim> lattice_faces() {
   }
 }
 
+// Cells that an extent is divided into to be about as long as `cell` (mm): at least one.
+inline int divisions(double extent, double cell) {
+  return std::max(1, static_cast<int>(std::lround(extent / cell)));
+}
+
 // The corners around a section's lattice, counter-clockwise from the first.
 std::vector<std::size_t> outline(const Lattice<2>& lattice);
 

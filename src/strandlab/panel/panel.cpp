@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
@@ -26,6 +28,38 @@ std::vector<std::string> material_names(const std::vector<StrandKind>& kinds) {
   return names;
 }
 
+// The material that a strand names, else its kind's. where() opens the message.
+template <class Where>
+const wood::Material& material_of(const StrandKind& kind, const std::optional<std::string>& given,
+                                  const std::vector<StrandKind>& kinds, const Where& where) {
+  if (!given || *given == kind.material.name) return kind.material;
+  for (const auto& other : kinds) {
+    if (other.material.name == *given) return other.material;
+  }
+  for (const auto& built_in : wood::library()) {
+    if (built_in.name == *given) return built_in;
+  }
+  const auto names = material_names(kinds);
+  throw InputError(fmt::format("{}: unknown material \"{}\"{} Materials: {}", where(), shortened(*given),
+                               did_you_mean(*given, names), quoted_list(names)));
+}
+
+// The wood of a strand of a kind, its grain at an angle to the lattice.
+wood::StrandMaterial wood_of(const StrandKind& kind, const wood::Material& material, double angle_deg) {
+  auto wood = wood::softened(material, kind.yield_factor);
+  wood.law = kind.material.law;
+  return wood::in_strand_axes(wood, angle_deg, kind.off_axis);
+}
+
+// What a formed strand has of its kind and its place in the mat.
+template <int Dim>
+void describe(const StrandKind& kind, std::size_t row, double angle_deg, Strand<Dim>& strand) {
+  strand.kind = kind.name;
+  strand.row = static_cast<int>(row);
+  strand.angle_deg = angle_deg;
+  strand.stiffness_factor = kind.stiffness_factor;
+}
+
 }  // namespace
 
 const StrandKind& find_kind(const std::vector<StrandKind>& kinds, const std::string& role, std::size_t layer) {
@@ -40,17 +74,14 @@ const StrandKind& find_kind(const std::vector<StrandKind>& kinds, const std::str
 
 const wood::Material& find_material(const StrandKind& kind, const mat::Strand& strand,
                                     const std::vector<StrandKind>& kinds, std::size_t layer) {
-  if (!strand.material || *strand.material == kind.material.name) return kind.material;
-  for (const auto& other : kinds) {
-    if (other.material.name == *strand.material) return other.material;
-  }
-  for (const auto& built_in : wood::library()) {
-    if (built_in.name == *strand.material) return built_in;
-  }
-  const auto names = material_names(kinds);
-  throw InputError(fmt::format("layer {}, strand at x = {} mm: unknown material \"{}\"{} Materials: {}", layer + 1,
-                               strand.x0_mm, shortened(*strand.material), did_you_mean(*strand.material, names),
-                               quoted_list(names)));
+  return material_of(kind, strand.material, kinds,
+                     [&] { return fmt::format("layer {}, strand at x = {} mm", layer + 1, strand.x0_mm); });
+}
+
+const wood::Material& find_material(const StrandKind& kind, const mat::PlateStrand& strand,
+                                    const std::vector<StrandKind>& kinds, std::size_t layer, std::size_t number) {
+  return material_of(kind, strand.material, kinds,
+                     [&] { return fmt::format("layer {}, strand {}", layer + 1, number + 1); });
 }
 
 Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, double spacing_along_mm,
@@ -66,16 +97,44 @@ Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, d
     const int through = mat::through(thickness, thinnest, points_through);
     for (const auto& piece : mat.layers[row].strands) {
       const double angle = piece.angle_deg.value_or(kind.angle_deg);
-      auto wood = wood::softened(find_material(kind, piece, kinds, row), kind.yield_factor);
-      wood.law = kind.material.law;
       const double length = piece.x1_mm - piece.x0_mm;
       const int along = std::max(1, static_cast<int>(std::lround(length / spacing_along_mm)));
       const Lattice<2> lattice{{along, through}, {length / along, thickness / through}};
-      auto s = formed_strand<2>(lattice, {{piece.x0_mm, y0}}, wood::in_strand_axes(wood, angle, kind.off_axis));
-      s.kind = kind.name;
-      s.row = static_cast<int>(row);
-      s.angle_deg = angle;
-      s.stiffness_factor = kind.stiffness_factor;
+      const auto wood = wood_of(kind, find_material(kind, piece, kinds, row), angle);
+      auto s = formed_strand<2>(lattice, {{piece.x0_mm, y0}}, wood);
+      describe(kind, row, angle, s);
+      panel.strands.push_back(std::move(s));
+    }
+  }
+  return panel;
+}
+
+Panel<3> make_panel(const mat::PlateMat& mat, const std::vector<StrandKind>& kinds, double spacing_mm,
+                    int points_through) {
+  if (mat.stack == mat::Stack::kDraped)
+    throw InputError("a panel can be made of mats in layers only: this one is draped");
+  Panel<3> panel;
+  panel.length_mm = mat.length_mm;
+  panel.depth_mm = mat.width_mm;
+  panel.periodic = mat.sides == mat::PlateSides::kPeriodic;
+  panel.initial_thickness_mm = mat.thickness_mm();
+  panel.top_mm = panel.initial_thickness_mm;
+  double thinnest = std::numeric_limits<double>::max();
+  for (std::size_t row = 0; row < mat.layers.size(); ++row) thinnest = std::min(thinnest, mat.thickness_of(row));
+  for (std::size_t row = 0; row < mat.layers.size(); ++row) {
+    const auto& kind = find_kind(kinds, mat.layers[row].role, row);
+    const double thickness = mat.thickness_of(row), middle = mat.height_below(row) + 0.5 * thickness;
+    const int through = mat::through(thickness, thinnest, points_through);
+    for (std::size_t n = 0; n < mat.layers[row].strands.size(); ++n) {
+      const auto& piece = mat.layers[row].strands[n];
+      const double angle = piece.angle_deg.value_or(kind.angle_deg);
+      const int along = divisions(piece.length_mm, spacing_mm), across = divisions(piece.width_mm, spacing_mm);
+      const Lattice<3> lattice{{along, across, through},
+                               {piece.length_mm / along, piece.width_mm / across, thickness / through}};
+      const auto wood =
+          wood_of(kind, find_material(kind, piece, kinds, row, n), 0);  // the lattice is turned, not the wood
+      auto s = formed_strand<3>(lattice, turned(lattice, {piece.cx_mm, piece.cy_mm, middle}, angle), wood);
+      describe(kind, row, angle, s);
       panel.strands.push_back(std::move(s));
     }
   }

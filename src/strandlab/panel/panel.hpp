@@ -10,6 +10,7 @@
 #include "strandlab/core/types.hpp"
 #include "strandlab/lattice/points.hpp"
 #include "strandlab/mat/mat.hpp"
+#include "strandlab/mat/plate.hpp"
 #include "strandlab/wood/material.hpp"
 
 namespace strandlab {
@@ -42,7 +43,8 @@ struct Strand {
 template <int Dim>
 struct Panel {
   double length_mm = 0;              // along x, window 0..length
-  double depth_mm = 1;               // across; 1 for a section
+  double depth_mm = 1;               // across: 1 for a section, in 3D the window's width along y
+  bool periodic = false;             // 3D: the window is a torus, on which strands meet the images of others
   double initial_thickness_mm = 0;   // platen gap of the mat as formed
   double bottom_mm = 0, top_mm = 0;  // platen faces now; thickness = top - bottom
   double time_s = 0;
@@ -64,6 +66,8 @@ const Points<Dim>& pattern_of_points(const Panel<Dim>& panel) {
 const StrandKind& find_kind(const std::vector<StrandKind>& kinds, const std::string& role, std::size_t layer);
 const wood::Material& find_material(const StrandKind& kind, const mat::Strand& strand,
                                     const std::vector<StrandKind>& kinds, std::size_t layer);
+const wood::Material& find_material(const StrandKind& kind, const mat::PlateStrand& strand,
+                                    const std::vector<StrandKind>& kinds, std::size_t layer, std::size_t number);
 
 // A strand as formed, without a place in a mat or a kind: at rest, unstressed, its history of yielding that of its
 // wood.
@@ -83,6 +87,12 @@ Strand<Dim> formed_strand(const Lattice<Dim>& lattice, const Placement<Dim>& pla
 // their thickness, others as many as keep the points' height nearest to that. Throws as find_kind() and
 // find_material(). A strand that names a material of its own still yields by the law of its kind.
 Panel<2> make_panel(const mat::Mat& mat, const std::vector<StrandKind>& kinds, double spacing_along_mm,
+                    int points_through);
+
+// The same of a plate's mat in layers: every strand is a whole lattice in its own axes, points about `spacing_mm` apart
+// along and across, turned about its middle. Where the window is periodic positions go on beyond its edges. Throws
+// InputError for a draped mat too.
+Panel<3> make_panel(const mat::PlateMat& mat, const std::vector<StrandKind>& kinds, double spacing_mm,
                     int points_through);
 
 // Parts of a mat's weight.

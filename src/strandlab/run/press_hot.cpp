@@ -92,10 +92,13 @@ class HotPress {
   }
   hotpress::PressedMat mat() const { return cases::pressed_mat(formed_.c, formed_.mat); }
 
-  static Panel<2> panel_at(const hotpress::StrandMechanics& strands, const hotpress::Instant& now) {
+  Panel<2> panel_at(const hotpress::Instant& now) const {
     std::vector<hotpress::StrandMechanics::Reading> readings;
-    for (const auto& cell : now.cells) readings.push_back({cell.T, cell.M, 1e-3 * cell.gas, cell.cure()});
-    return strands.panel(readings);
+    for (const auto& cell : now.cells) {
+      const auto& resin = cell.face ? settings_.resin_face : settings_.resin_core;
+      readings.push_back({cell.T, cell.M, 1e-3 * cell.gas, cell.cure(), transfer::bond_strength(resin, cell.cure())});
+    }
+    return strands_.panel(readings);
   }
 
   double fraction(const hotpress::Instant& now) const {
@@ -109,7 +112,7 @@ class HotPress {
   void after_step(const hotpress::Instant& now, const std::function<std::vector<double>()>& state) {
     const double done = fraction(now);
     if (keep_.frame && next_frame_ <= keep_.frames && done >= static_cast<double>(next_frame_) / keep_.frames) {
-      const auto panel = panel_at(strands_, now);
+      const auto panel = panel_at(now);
       for (; next_frame_ <= keep_.frames && done >= static_cast<double>(next_frame_) / keep_.frames; ++next_frame_)
         keep_.frame(panel, next_frame_);
     }
@@ -146,12 +149,12 @@ class HotPress {
     const bool opened = now.mark == "opened";
     if ((formed_.c.hotpress.kept == "opened") != opened) return;
     kept_ = true;
-    if (keep_.snapshot) keep_.snapshot(panel_at(strands_, now), 0);
+    if (keep_.snapshot) keep_.snapshot(panel_at(now), 0);
   }
 
   PressOutcome outcome(hotpress::Cycle cycle) {
     if (keep_.frame && next_frame_ <= keep_.frames) {  // a cycle that ends early
-      const auto panel = panel_at(strands_, cycle.record.back());
+      const auto panel = panel_at(cycle.record.back());
       for (; next_frame_ <= keep_.frames; ++next_frame_) keep_.frame(panel, next_frame_);
     }
     if (keep_.checkpoint && last_) {

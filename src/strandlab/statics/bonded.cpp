@@ -8,37 +8,45 @@
 
 namespace strandlab::statics {
 
-void Solution::add(double factor, const Solution& other) {
+template <int Dim>
+void Solution<Dim>::add(double factor, const Solution<Dim>& other) {
   for (std::size_t i = 0; i < displacement.size(); ++i) displacement[i] += factor * other.displacement[i];
   for (std::size_t k = 0; k < excess.size(); ++k) excess[k] += factor * other.excess[k];
 }
 
-double penalty(const Mesh& mesh, double element_length, double times) {
+template <int Dim>
+double penalty(const Mesh<Dim>& mesh, double element_length, double times) {
   double stiffest = 0;
   for (const auto& c : mesh.stiffness) stiffest = std::max(stiffest, c.diagonal().maxCoeff());
   return times * stiffest / element_length;
 }
 
-BondedPanel::BondedPanel(const Mesh& mesh, std::vector<Spring> springs, double penalty)
+template <int Dim>
+BondedPanel<Dim>::BondedPanel(const Mesh<Dim>& mesh, std::vector<Spring<Dim>> springs, double penalty)
     : parts_(mesh, std::move(springs)), penalty_(penalty) {}
 
-void BondedPanel::glue(const glue::Bond& bond, SolveTimes& times) {
-  bond_ = glue::stiffness(bond, penalty_);
+template <int Dim>
+void BondedPanel<Dim>::glue(const glue::Bond& bond, SolveTimes& times) {
+  bonds_.clear();
+  for (const auto& spring : parts_.springs())
+    bonds_.push_back(glue::stiffness(glue::unfinished(bond, spring.quality), penalty_));
   {
     const Stopwatch watch(times.assemble);
-    stiffness_ = parts_.with(bond_);
+    stiffness_ = parts_.with(bonds_);
   }
   if (cholesky_) return;
   const Stopwatch watch(times.analyse);
   cholesky_ = std::make_unique<Cholesky>(stiffness_);
 }
 
-double BondedPanel::energy(const Solution& s) const {
-  return parts_.wood_energy(s.displacement) + parts_.glue_energy(s.displacement, bond_) +
+template <int Dim>
+double BondedPanel<Dim>::energy(const Solution<Dim>& s) const {
+  return parts_.wood_energy(s.displacement) + parts_.glue_energy(s.displacement, bonds_) +
          0.5 * parts_.traction_work(s.excess, s.displacement);
 }
 
-std::vector<double> BondedPanel::forces(const Solution& s) const {
+template <int Dim>
+std::vector<double> BondedPanel<Dim>::forces(const Solution<Dim>& s) const {
   auto f = multiply(stiffness_, s.displacement);
   parts_.add_traction_forces(s.excess, f);
   return f;
@@ -46,12 +54,18 @@ std::vector<double> BondedPanel::forces(const Solution& s) const {
 
 // Hands the tractions of perfect bonds' penalty springs over to the excess; returns the largest of them, relative to
 // the largest excess.
-double BondedPanel::hand_over(Solution& s) const {
+template <int Dim>
+double BondedPanel<Dim>::hand_over(Solution<Dim>& s) const {
   double change = 0, largest = std::numeric_limits<double>::min();
   const auto opening = jumps(s);
   for (std::size_t k = 0; k < opening.size(); ++k) {
-    const Vec<2> more(bond_.perfect_t ? bond_.tangential * opening[k][0] : 0,
-                      bond_.perfect_n ? bond_.normal * opening[k][1] : 0);
+    Vec<Dim> more;
+    for (int d = 0; d < Dim; ++d) {
+      const auto& bond = bonds_[k];
+      const bool normal = d == Dim - 1;
+      more[d] =
+          (normal ? bond.perfect_n : bond.perfect_t) ? (normal ? bond.normal : bond.tangential) * opening[k][d] : 0;
+    }
     s.excess[k] += more;
     change = std::max(change, more.cwiseAbs().maxCoeff());
     largest = std::max(largest, s.excess[k].cwiseAbs().maxCoeff());
@@ -62,12 +76,14 @@ double BondedPanel::hand_over(Solution& s) const {
 // Solves one load case by the method of multipliers (Hestenes, J. Optim. Theory Appl. 4 (1969) 303): what a perfect
 // bond's penalty spring carries is handed over to its traction until the spring is idle, so that the penalty leaves no
 // trace; each step refines the linear solution too. One factor serves all.
-Solution BondedPanel::respond(const LowerMatrix& matrix, const Supports& supports, const std::vector<double>& rhs) {
+template <int Dim>
+Solution<Dim> BondedPanel<Dim>::respond(const LowerMatrix& matrix, const Supports& supports,
+                                        const std::vector<double>& rhs) {
   constexpr int kLeastSteps = 2, kMostSteps = 10;
   constexpr double kSettled = 1e-4;  // tractions change by less than this of the largest
   constexpr double kStalled = 0.5;   // or no longer fall by this from step to step: round-off
-  Solution s{cholesky_->solve(rhs), {}};
-  s.excess.assign(jumps(s).size(), Vec<2>::Zero());
+  Solution<Dim> s{cholesky_->solve(rhs), {}};
+  s.excess.assign(jumps(s).size(), Vec<Dim>::Zero());
   double previous = 1;
   for (int step = 1; step <= kMostSteps; ++step) {
     const double change = hand_over(s);
@@ -84,8 +100,9 @@ Solution BondedPanel::respond(const LowerMatrix& matrix, const Supports& support
   return s;
 }
 
-std::vector<Solution> BondedPanel::solve(const Supports& supports, const std::vector<LoadCase>& loads,
-                                         SolveTimes& times, const std::function<void()>& before_solve) {
+template <int Dim>
+std::vector<Solution<Dim>> BondedPanel<Dim>::solve(const Supports& supports, const std::vector<LoadCase>& loads,
+                                                   SolveTimes& times, const std::function<void()>& before_solve) {
   if (before_solve) before_solve();
   LowerMatrix matrix;
   {
@@ -94,7 +111,7 @@ std::vector<Solution> BondedPanel::solve(const Supports& supports, const std::ve
     cholesky_->factorise(matrix);
   }
   const Stopwatch watch(times.solve);
-  std::vector<Solution> solutions;
+  std::vector<Solution<Dim>> solutions;
   for (std::size_t k = 0; k < loads.size(); ++k) {
     if (k > 0 && before_solve) before_solve();
     const auto rhs = right_hand_side(stiffness_, supports, loads[k].forces, loads[k].given);
@@ -102,5 +119,12 @@ std::vector<Solution> BondedPanel::solve(const Supports& supports, const std::ve
   }
   return solutions;
 }
+
+template struct Solution<2>;
+template struct Solution<3>;
+template double penalty(const Mesh<2>&, double, double);
+template double penalty(const Mesh<3>&, double, double);
+template class BondedPanel<2>;
+template class BondedPanel<3>;
 
 }  // namespace strandlab::statics

@@ -10,17 +10,18 @@
 
 namespace strandlab::statics {
 
-// Forces on the free dofs (N per mm of depth) and displacements of the fixed ones (mm), each of all dofs.
+// Forces on the free dofs (N, 2D: per mm of depth) and displacements of the fixed ones (mm), each of all dofs.
 struct LoadCase {
   std::vector<double> forces, given;
   bool operator==(const LoadCase&) const = default;
 };
 
 // Displacements, and the tractions that perfect bonds carry in excess of their penalty springs.
+template <int Dim>
 struct Solution {
   std::vector<double> displacement;  // mm
-  std::vector<Vec<2>> excess;        // MPa, tangential and normal, by spring
-  void add(double factor, const Solution& other);
+  std::vector<Vec<Dim>> excess;      // MPa, tangential, then normal, by spring
+  void add(double factor, const Solution<Dim>& other);
 };
 
 // Wall time, s.
@@ -29,15 +30,17 @@ struct SolveTimes {
 };
 
 // Penalty (MPa/mm) of a perfect bond: `times` the stiffness of the stiffest element, over the length of elements.
-double penalty(const Mesh& mesh, double element_length, double times);
+template <int Dim>
+double penalty(const Mesh<Dim>& mesh, double element_length, double times);
 
+template <int Dim>
 class BondedPanel {
  public:
   // Sums the wood, once for all bonds. Throws RunError for an inverted element.
-  BondedPanel(const Mesh& mesh, std::vector<Spring> springs, double penalty);
+  BondedPanel(const Mesh<Dim>& mesh, std::vector<Spring<Dim>> springs, double penalty);
 
-  // Glues the panel with this bond, in place of the one before. The first time it also analyses the matrix, whose
-  // pattern is that of every bond. Throws OutOfMemory.
+  // Glues the panel with this bond, in place of the one before; springs of less quality with what it makes of it. The
+  // first time it also analyses the matrix, whose pattern is that of every bond. Throws OutOfMemory.
   void glue(const glue::Bond& bond, SolveTimes& times);
 
   // Stiffness of wood and glue without supports.
@@ -45,23 +48,23 @@ class BondedPanel {
 
   // Solutions of load cases on the same supports, with one factorisation. `before_solve`, where given, is called before
   // each; what it throws passes through. Throws RunError where the supports leave a motion free, OutOfMemory.
-  std::vector<Solution> solve(const Supports& supports, const std::vector<LoadCase>& loads, SolveTimes& times,
-                              const std::function<void()>& before_solve = nullptr);
+  std::vector<Solution<Dim>> solve(const Supports& supports, const std::vector<LoadCase>& loads, SolveTimes& times,
+                                   const std::function<void()>& before_solve = nullptr);
 
-  // Of wood and glue lines, mJ per mm of depth.
-  double energy(const Solution& s) const;
-  // Nodal forces that hold the panel in this state: reactions and loads, N per mm of depth.
-  std::vector<double> forces(const Solution& s) const;
+  // Of wood and glue lines, mJ, 2D: per mm of depth.
+  double energy(const Solution<Dim>& s) const;
+  // Nodal forces that hold the panel in this state: reactions and loads, N, 2D: per mm of depth.
+  std::vector<double> forces(const Solution<Dim>& s) const;
   // Openings of the glue points (tangential, normal), mm.
-  std::vector<Vec<2>> jumps(const Solution& s) const { return parts_.jumps(s.displacement); }
+  std::vector<Vec<Dim>> jumps(const Solution<Dim>& s) const { return parts_.jumps(s.displacement); }
 
  private:
-  double hand_over(Solution& s) const;
-  Solution respond(const LowerMatrix& matrix, const Supports& supports, const std::vector<double>& rhs);
+  double hand_over(Solution<Dim>& s) const;
+  Solution<Dim> respond(const LowerMatrix& matrix, const Supports& supports, const std::vector<double>& rhs);
 
-  PanelStiffness parts_;
+  PanelStiffness<Dim> parts_;
   double penalty_;
-  glue::BondStiffness bond_;
+  std::vector<glue::BondStiffness> bonds_;  // by spring
   LowerMatrix stiffness_;
   std::unique_ptr<Cholesky> cholesky_;
 };

@@ -5,22 +5,20 @@
 namespace strandlab::statics {
 namespace {
 
-using Dofs = Eigen::Matrix<double, 8, 1>;
-
-Dofs gather(const std::array<int, 4>& nodes, const std::vector<double>& u) {
-  Dofs d;
-  for (int i = 0; i < 4; ++i) {
-    d[2 * i] = u[2 * nodes[i]];
-    d[2 * i + 1] = u[2 * nodes[i] + 1];
+template <int Dim>
+ElementDofs<Dim> gather(const std::array<int, kCorners<Dim>>& nodes, const std::vector<double>& u) {
+  ElementDofs<Dim> d;
+  for (int i = 0; i < kCorners<Dim>; ++i) {
+    for (int a = 0; a < Dim; ++a) d[Dim * i + a] = u[Dim * nodes[i] + a];
   }
   return d;
 }
 
-// Calls visit(row, column) for the node pairs of a group of four, row >= column.
-template <class Visit>
-void for_each_pair(const std::array<int, 4>& nodes, Visit visit) {
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) {
+// Calls visit(row, column) for the node pairs of a group, row >= column.
+template <class Nodes, class Visit>
+void for_each_pair(const Nodes& nodes, Visit visit) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
       if (nodes[i] > nodes[j] || i == j) visit(nodes[i], nodes[j]);
     }
   }
@@ -28,19 +26,19 @@ void for_each_pair(const std::array<int, 4>& nodes, Visit visit) {
 
 }  // namespace
 
-PanelStiffness::PanelStiffness(const Mesh& mesh, std::vector<Spring> springs)
+template <int Dim>
+PanelStiffness<Dim>::PanelStiffness(const Mesh<Dim>& mesh, std::vector<Spring<Dim>> springs)
     : elements_(mesh.elements), springs_(std::move(springs)) {
   make_pattern(mesh);
   element_stiffness_.reserve(elements_.size());
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const auto& n = elements_[e];
-    element_stiffness_.push_back(incompatible_quadrilateral(
-        {mesh.nodes[n[0]], mesh.nodes[n[1]], mesh.nodes[n[2]], mesh.nodes[n[3]]}, mesh.stiffness[e]));
-    add_block(n, element_stiffness_.back(), wood_.value);
+    element_stiffness_.push_back(incompatible_element<Dim>(mesh.corners(e), mesh.stiffness[e]));
+    add_block(elements_[e], element_stiffness_.back(), wood_.value);
   }
 }
 
-void PanelStiffness::make_pattern(const Mesh& mesh) {
+template <int Dim>
+void PanelStiffness<Dim>::make_pattern(const Mesh<Dim>& mesh) {
   const auto nodes = mesh.nodes.size();
   std::vector<int> count(nodes + 1, 0);
   const auto for_all = [&](auto visit) {
@@ -59,10 +57,9 @@ void PanelStiffness::make_pattern(const Mesh& mesh) {
     std::sort(begin, end);
     node_row_.insert(node_row_.end(), begin, std::unique(begin, end));
     node_start_.push_back(static_cast<int>(node_row_.size()));
-    for (const int second : {0, 1}) {
+    for (int component = 0; component < Dim; ++component) {
       for (int k = node_start_[c]; k < node_start_[c + 1]; ++k) {
-        if (k > node_start_[c] || second == 0) wood_.row.push_back(2 * node_row_[k]);
-        wood_.row.push_back(2 * node_row_[k] + 1);
+        for (int a = k > node_start_[c] ? 0 : component; a < Dim; ++a) wood_.row.push_back(Dim * node_row_[k] + a);
       }
       wood_.column_start.push_back(static_cast<int>(wood_.row.size()));
     }
@@ -70,79 +67,94 @@ void PanelStiffness::make_pattern(const Mesh& mesh) {
   wood_.value.assign(wood_.row.size(), 0.0);
 }
 
-// Index of the value at (u_x of row_node, u_x or u_y of column_node); the u_y row follows. For row = column and the
-// second column it is one before the diagonal.
-int PanelStiffness::block_start(int row_node, int column_node, bool second_column) const {
+// Index of the value at (u_x of row_node, a component of column_node); the rows of the other components follow. In the
+// diagonal block those above the diagonal do not exist: their indices would be before the column's first.
+template <int Dim>
+int PanelStiffness<Dim>::block_start(int row_node, int column_node, int component) const {
   const auto begin = node_row_.begin() + node_start_[column_node],
              end = node_row_.begin() + node_start_[column_node + 1];
   const int k = static_cast<int>(std::lower_bound(begin, end, row_node) - begin);
-  return wood_.column_start[2 * column_node + (second_column ? 1 : 0)] + 2 * k - (second_column ? 1 : 0);
+  return wood_.column_start[Dim * column_node + component] + Dim * k - component;
 }
 
-void PanelStiffness::add_block(const std::array<int, 4>& nodes, const ElementStiffness& stiffness,
-                               std::vector<double>& values) const {
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) {
+template <int Dim>
+void PanelStiffness<Dim>::add_block(const Nodes& nodes, const ElementStiffness<Dim>& stiffness,
+                                    std::vector<double>& values) const {
+  for (int i = 0; i < kCorners<Dim>; ++i) {
+    for (int j = 0; j < kCorners<Dim>; ++j) {
       if (nodes[i] < nodes[j]) continue;
       const bool diagonal = nodes[i] == nodes[j];
-      for (const int c : {0, 1}) {
-        const int start = block_start(nodes[i], nodes[j], c == 1);
-        if (!(diagonal && c == 1)) values[start] += stiffness(2 * i, 2 * j + c);
-        values[start + 1] += stiffness(2 * i + 1, 2 * j + c);
+      for (int c = 0; c < Dim; ++c) {
+        const int start = block_start(nodes[i], nodes[j], c);
+        for (int a = diagonal ? c : 0; a < Dim; ++a) values[start + a] += stiffness(Dim * i + a, Dim * j + c);
       }
     }
   }
 }
 
-LowerMatrix PanelStiffness::with(const glue::BondStiffness& glue) const {
+template <int Dim>
+LowerMatrix PanelStiffness<Dim>::with(const std::vector<glue::BondStiffness>& bonds) const {
   LowerMatrix sum = wood_;
-  for (const auto& s : springs_) add_block(s.nodes, spring_stiffness(s, glue), sum.value);
+  for (std::size_t k = 0; k < springs_.size(); ++k)
+    add_block(springs_[k].nodes, spring_stiffness(springs_[k], bonds[k]), sum.value);
   return sum;
 }
 
-double PanelStiffness::wood_energy(const std::vector<double>& displacement) const {
+template <int Dim>
+double PanelStiffness<Dim>::wood_energy(const std::vector<double>& displacement) const {
   double energy = 0;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const Dofs u = gather(elements_[e], displacement);
+    const auto u = gather<Dim>(elements_[e], displacement);
     energy += 0.5 * u.dot(element_stiffness_[e] * u);
   }
   return energy;
 }
 
-std::vector<Vec<2>> PanelStiffness::jumps(const std::vector<double>& displacement) const {
-  std::vector<Vec<2>> result;
-  result.reserve(springs_.size());
-  for (const auto& s : springs_) {
-    const Dofs u = gather(s.nodes, displacement);
-    result.emplace_back(s.tangent.dot(u), s.normal.dot(u));
+template <int Dim>
+std::vector<Vec<Dim>> PanelStiffness<Dim>::jumps(const std::vector<double>& displacement) const {
+  std::vector<Vec<Dim>> result(springs_.size());
+  for (std::size_t k = 0; k < springs_.size(); ++k) {
+    const auto u = gather<Dim>(springs_[k].nodes, displacement);
+    for (int d = 0; d < Dim; ++d) result[k][d] = springs_[k].jump[d].dot(u);
   }
   return result;
 }
 
-void PanelStiffness::add_traction_forces(const std::vector<Vec<2>>& tractions, std::vector<double>& force) const {
+template <int Dim>
+void PanelStiffness<Dim>::add_traction_forces(const std::vector<Vec<Dim>>& tractions,
+                                              std::vector<double>& force) const {
   for (std::size_t k = 0; k < springs_.size(); ++k) {
     const auto& s = springs_[k];
-    const Dofs f = s.area * (tractions[k][0] * s.tangent + tractions[k][1] * s.normal);
-    for (int i = 0; i < 4; ++i) {
-      force[2 * s.nodes[i]] += f[2 * i];
-      force[2 * s.nodes[i] + 1] += f[2 * i + 1];
+    ElementDofs<Dim> f = tractions[k][0] * s.jump[0];
+    for (int d = 1; d < Dim; ++d) f += tractions[k][d] * s.jump[d];
+    f *= s.area;
+    for (int i = 0; i < kCorners<Dim>; ++i) {
+      for (int a = 0; a < Dim; ++a) force[Dim * s.nodes[i] + a] += f[Dim * i + a];
     }
   }
 }
 
-double PanelStiffness::glue_energy(const std::vector<double>& displacement, const glue::BondStiffness& glue) const {
+template <int Dim>
+double PanelStiffness<Dim>::glue_energy(const std::vector<double>& displacement,
+                                        const std::vector<glue::BondStiffness>& bonds) const {
   auto tractions = jumps(displacement);
-  for (auto& t : tractions) t = Vec<2>(glue.tangential * t[0], glue.normal * t[1]);
+  for (std::size_t k = 0; k < springs_.size(); ++k) {
+    for (int d = 0; d < Dim; ++d) tractions[k][d] *= d < Dim - 1 ? bonds[k].tangential : bonds[k].normal;
+  }
   return 0.5 * traction_work(tractions, displacement);
 }
 
-double PanelStiffness::traction_work(const std::vector<Vec<2>>& tractions,
-                                     const std::vector<double>& displacement) const {
+template <int Dim>
+double PanelStiffness<Dim>::traction_work(const std::vector<Vec<Dim>>& tractions,
+                                          const std::vector<double>& displacement) const {
   const auto jump = jumps(displacement);
   double work = 0;
   for (std::size_t k = 0; k < springs_.size(); ++k) work += springs_[k].area * tractions[k].dot(jump[k]);
   return work;
 }
+
+template class PanelStiffness<2>;
+template class PanelStiffness<3>;
 
 LowerMatrix constrained(const LowerMatrix& stiffness, const Supports& supports) {
   LowerMatrix result = stiffness;

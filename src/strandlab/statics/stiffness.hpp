@@ -9,33 +9,37 @@
 
 namespace strandlab::statics {
 
+template <int Dim>
 class PanelStiffness {
  public:
   // Sums the elements and finds the place of every spring. Throws RunError for an inverted element.
-  PanelStiffness(const Mesh& mesh, std::vector<Spring> springs);
+  PanelStiffness(const Mesh<Dim>& mesh, std::vector<Spring<Dim>> springs);
 
-  // Stiffness of wood and glue, no supports. The pattern is the same for every glue.
-  LowerMatrix with(const glue::BondStiffness& glue) const;
+  // Stiffness of wood and glue, no supports: a bond for each spring. The pattern is the same for all bonds.
+  LowerMatrix with(const std::vector<glue::BondStiffness>& bonds) const;
 
-  // Jumps (tangential, normal), mm, of every spring.
-  std::vector<Vec<2>> jumps(const std::vector<double>& displacement) const;
-  // Adds the nodal forces (N per mm of depth) that hold the springs at these tractions (MPa, tangential and normal).
-  void add_traction_forces(const std::vector<Vec<2>>& tractions, std::vector<double>& force) const;
+  const std::vector<Spring<Dim>>& springs() const { return springs_; }
+  // Jumps (tangential, then normal), mm, of every spring.
+  std::vector<Vec<Dim>> jumps(const std::vector<double>& displacement) const;
+  // Adds the nodal forces (N, 2D: per mm of depth) that hold the springs at these tractions (MPa, as the jumps).
+  void add_traction_forces(const std::vector<Vec<Dim>>& tractions, std::vector<double>& force) const;
 
-  // Strain energy (mJ per mm of depth) of the wood, and of the glue lines, for displacements of all dofs (mm).
+  // Strain energy (mJ, 2D: per mm of depth) of the wood, and of the glue lines, for displacements of all dofs (mm).
   double wood_energy(const std::vector<double>& displacement) const;
-  double glue_energy(const std::vector<double>& displacement, const glue::BondStiffness& glue) const;
-  // Work of given tractions on the jumps, mJ per mm of depth.
-  double traction_work(const std::vector<Vec<2>>& tractions, const std::vector<double>& displacement) const;
+  double glue_energy(const std::vector<double>& displacement, const std::vector<glue::BondStiffness>& bonds) const;
+
+  // Work of given tractions on the jumps, mJ, 2D: per mm of depth.
+  double traction_work(const std::vector<Vec<Dim>>& tractions, const std::vector<double>& displacement) const;
 
  private:
-  void make_pattern(const Mesh& mesh);
-  int block_start(int row_node, int column_node, bool second_column) const;
-  void add_block(const std::array<int, 4>& nodes, const ElementStiffness& stiffness, std::vector<double>& values) const;
+  using Nodes = std::array<int, kCorners<Dim>>;  // of an element or a spring
+  void make_pattern(const Mesh<Dim>& mesh);
+  int block_start(int row_node, int column_node, int component) const;
+  void add_block(const Nodes& nodes, const ElementStiffness<Dim>& stiffness, std::vector<double>& values) const;
 
-  std::vector<std::array<int, 4>> elements_;
-  std::vector<ElementStiffness> element_stiffness_;
-  std::vector<Spring> springs_;
+  std::vector<Nodes> elements_;
+  std::vector<ElementStiffness<Dim>> element_stiffness_;
+  std::vector<Spring<Dim>> springs_;
   std::vector<int> node_start_, node_row_;  // lower pattern of nodes: rows of a column, the column itself first
   LowerMatrix wood_;                        // value: wood alone
 };

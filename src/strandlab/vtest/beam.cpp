@@ -22,8 +22,8 @@ struct Place {
 };
 
 // Where the line of nodes j of a strand crosses the section at x; nothing where it does not reach it.
-std::optional<Place> crossing(const statics::Mesh& mesh, const statics::StrandMesh& strand, int j, double x) {
-  for (int i = 0; i < strand.along; ++i) {
+std::optional<Place> crossing(const statics::Mesh<2>& mesh, const statics::StrandMesh<2>& strand, int j, double x) {
+  for (int i = 0; i < strand.along(); ++i) {
     const int a = strand.node(i, j), b = strand.node(i + 1, j);
     const double xa = mesh.nodes[a][0], xb = mesh.nodes[b][0];
     if (x < std::min(xa, xb) || x > std::max(xa, xb) || xa == xb) continue;
@@ -45,14 +45,15 @@ void add_at(const Place& place, double value, std::vector<double>& vector) {
 // Adds the nodal forces of a pad pressed on the panel: a vertical force (N, positive up) spread over `width` mm around
 // x as 1 + cos, on the topmost (or lowest) wood at each place. Its resultant is `force` at x, exactly.
 enum class PadOn { kTop, kBottom };
-void add_pad(const statics::Mesh& mesh, PadOn face, double x, double width, double force, std::vector<double>& forces) {
+void add_pad(const statics::Mesh<2>& mesh, PadOn face, double x, double width, double force,
+             std::vector<double>& forces) {
   constexpr int kSamples = 100;
   const double sign = face == PadOn::kTop ? 1 : -1;
   for (int k = 0; k < kSamples; ++k) {
     const double t = (k + 0.5) / kSamples - 0.5;  // of the width; the weights sum to 1
     std::optional<Place> outermost;
     for (const auto& strand : mesh.strands) {
-      const auto place = crossing(mesh, strand, face == PadOn::kTop ? strand.through : 0, x + t * width);
+      const auto place = crossing(mesh, strand, face == PadOn::kTop ? strand.through() : 0, x + t * width);
       if (place && (!outermost || sign * (place->y - outermost->y) > 0)) outermost = place;
     }
     if (!outermost) no_wood("under a pad at", x);
@@ -61,7 +62,7 @@ void add_pad(const statics::Mesh& mesh, PadOn face, double x, double width, doub
 }
 
 // Adds `factor` times the deflection of the cross section at x.
-void add_deflection(const statics::Mesh& mesh, double x, double factor, std::vector<double>& form) {
+void add_deflection(const statics::Mesh<2>& mesh, double x, double factor, std::vector<double>& form) {
   struct Layer {
     Place lower, upper;
     double height;
@@ -70,7 +71,7 @@ void add_deflection(const statics::Mesh& mesh, double x, double factor, std::vec
   double total = 0;
   for (const auto& strand : mesh.strands) {
     auto lower = crossing(mesh, strand, 0, x);
-    for (int j = 0; j < strand.through; ++j) {
+    for (int j = 0; j < strand.through(); ++j) {
       const auto upper = crossing(mesh, strand, j + 1, x);
       if (lower && upper) {
         layers.push_back({*lower, *upper, std::abs(upper->y - lower->y)});
@@ -171,7 +172,8 @@ statics::LoadCase deflection_load(const BeamTest& test) {
 }
 
 // From U(a + s b) - U(a - s b) = 2 s (a, b), with s such that both weigh alike.
-double mutual_energy(const statics::BondedPanel& panel, const statics::Solution& a, const statics::Solution& b) {
+double mutual_energy(const statics::BondedPanel<2>& panel, const statics::Solution<2>& a,
+                     const statics::Solution<2>& b) {
   const double s = std::sqrt(panel.energy(a) / panel.energy(b));
   auto sum = a, difference = a;
   sum.add(s, b);
@@ -179,8 +181,8 @@ double mutual_energy(const statics::BondedPanel& panel, const statics::Solution&
   return (panel.energy(sum) - panel.energy(difference)) / (2 * s);
 }
 
-void apparent(const Model& model, const BeamTest& test, const statics::Solution& loaded,
-              const statics::Solution& deflection, Modulus& modulus) {
+void apparent(const Model& model, const BeamTest& test, const statics::Solution<2>& loaded,
+              const statics::Solution<2>& deflection, Modulus& modulus) {
   modulus.modulus_MPa = apparent_modulus(test, model.section, mutual_energy(model.bonded, loaded, deflection));
   modulus.reaction_modulus_MPa = apparent_modulus(test, model.section, dot(test.deflection, loaded.displacement));
 }

@@ -43,11 +43,12 @@ statics::LoadCase force_load(const BeamTest& test);
 statics::LoadCase deflection_load(const BeamTest& test);
 
 // Energy that one state's forces spend on another's displacements, mJ.
-double mutual_energy(const statics::BondedPanel& panel, const statics::Solution& a, const statics::Solution& b);
+double mutual_energy(const statics::BondedPanel<2>& panel, const statics::Solution<2>& a,
+                     const statics::Solution<2>& b);
 
 // Bernoulli's modulus of the deflection between supports, E = P a (3 S^2 - 4 a^2)/(48 I w) (a = S/2 for three points),
 // from solutions of the two load cases: w from their mutual energy, and read off for the modulus from the reaction.
-void apparent(const Model& model, const BeamTest& test, const statics::Solution& loaded,
-              const statics::Solution& deflection, Modulus& modulus);
+void apparent(const Model& model, const BeamTest& test, const statics::Solution<2>& loaded,
+              const statics::Solution<2>& deflection, Modulus& modulus);
 
 }  // namespace strandlab::vtest

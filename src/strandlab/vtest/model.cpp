@@ -12,16 +12,16 @@ namespace {
 
 constexpr double kFewFolded = 1e-3;  // of the elements: corners of single strands; judgement
 
-Section make_section(const Panel<2>& panel, const Connection& connection, const statics::Mesh& mesh) {
+Section make_section(const Panel<2>& panel, const Connection& connection, const statics::Mesh<2>& mesh) {
   Section section;
   section.length = panel.length_mm;
   section.thickness = panel.thickness_mm();
   section.middle = 0.5 * (panel.bottom_mm + panel.top_mm);
   std::vector<char> pinned(static_cast<std::size_t>(connection.groups), 0);
   for (const auto& strand : mesh.strands) {
-    for (int j = 0; j <= strand.through; ++j) {
+    for (int j = 0; j <= strand.through(); ++j) {
       if (connection.at_left[strand.strand]) section.left.push_back(strand.node(0, j));
-      if (connection.at_right[strand.strand]) section.right.push_back(strand.node(strand.along, j));
+      if (connection.at_right[strand.strand]) section.right.push_back(strand.node(strand.along(), j));
     }
     auto& group_pinned = pinned[connection.group[strand.strand]];
     if (!group_pinned) section.pins.push_back(strand.node(0, 0));
@@ -65,8 +65,8 @@ Model make_model(const Panel<2>& panel, const Options& options, Result& result) 
   std::vector<bool> at_end(mesh.nodes.size());
   for (const int n : section.left) at_end[n] = true;
   for (const int n : section.right) at_end[n] = true;
-  statics::BondedPanel bonded(mesh, statics::make_springs(mesh, points, at_end),
-                              statics::penalty(mesh, spacing, options.perfect_bond));
+  statics::BondedPanel<2> bonded(mesh, statics::make_springs(mesh, points, at_end),
+                                 statics::penalty(mesh, spacing, options.perfect_bond));
   result.unknowns = mesh.dofs();
   if (mesh.straightened > kFewFolded * static_cast<double>(mesh.elements.size())) {
     result.warnings.push_back(

@@ -20,10 +20,10 @@ struct Section {
 
 struct Model {
   Connection connection;
-  statics::Mesh mesh;
+  statics::Mesh<2> mesh;
   Section section;
   std::vector<glue::GluePoint<2>> points;  // of strands that are kept
-  statics::BondedPanel bonded;
+  statics::BondedPanel<2> bonded;
 };
 
 // Cures and meshes the specimen; fills what of the result depends on no glue. Throws InputError where no strands

@@ -76,7 +76,7 @@ Plan make_plan(const Model& model, const Options& options) {
 // softest so far.
 std::vector<Modulus> carry_out(const Plan& plan, Model& model, double compliance_t,
                                const std::function<void()>& before_solve, statics::SolveTimes& times, Result& result) {
-  std::vector<std::vector<statics::Solution>> solutions;
+  std::vector<std::vector<statics::Solution<2>>> solutions;
   for (const auto& factor : plan.factors) {
     solutions.push_back(model.bonded.solve(factor.supports(model), factor.loads, times, before_solve));
   }

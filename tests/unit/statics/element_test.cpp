@@ -11,7 +11,7 @@
 namespace strandlab::statics {
 namespace {
 
-using Dofs = Eigen::Matrix<double, 8, 1>;
+using Dofs = ElementDofs<2>;
 
 const VoigtMatrix& poplar() {
   static const VoigtMatrix c = wood::stiffness(wood::Material{});
@@ -56,12 +56,12 @@ TEST(InSection, TurnsWithTheGrain) {
 }
 
 TEST(IncompatibleQuadrilateral, LetsRigidMotionsPassAndNothingElse) {
-  const auto k = incompatible_quadrilateral(distorted(), in_section(poplar(), Vec<2>(0.8, 0.6)));
+  const auto k = incompatible_element<2>(distorted(), in_section(poplar(), Vec<2>(0.8, 0.6)));
   const double scale = k.diagonal().maxCoeff();
   EXPECT_LT((k - k.transpose()).cwiseAbs().maxCoeff(), 1e-12 * scale);
   EXPECT_LT((k * sample(distorted(), [](const Vec<2>&) { return Vec<2>(1, -2); })).norm(), 1e-12 * scale);
   EXPECT_LT((k * sample(distorted(), [](const Vec<2>& x) { return Vec<2>(-x[1], x[0]); })).norm(), 1e-12 * scale);
-  const Eigen::SelfAdjointEigenSolver<ElementStiffness> eigen(k);
+  const Eigen::SelfAdjointEigenSolver<ElementStiffness<2>> eigen(k);
   EXPECT_LT(std::abs(eigen.eigenvalues()[2]), 1e-10 * scale);
   EXPECT_GT(eigen.eigenvalues()[3], 1e-4 * scale);
 }
@@ -69,7 +69,7 @@ TEST(IncompatibleQuadrilateral, LetsRigidMotionsPassAndNothingElse) {
 // Patch test: a constant strain in a distorted element stores exactly area/2 e.C e.
 TEST(IncompatibleQuadrilateral, IsExactForConstantStrain) {
   const auto c = in_section(poplar(), Vec<2>(0.8, 0.6));
-  const auto k = incompatible_quadrilateral(distorted(), c);
+  const auto k = incompatible_element<2>(distorted(), c);
   const Eigen::Vector3d strain(0.01, -0.02, 0.03);
   const auto u = sample(distorted(), [&](const Vec<2>& x) {
     return Vec<2>(strain[0] * x[0] + 0.5 * strain[2] * x[1], strain[1] * x[1] + 0.5 * strain[2] * x[0]);
@@ -87,14 +87,14 @@ TEST(IncompatibleQuadrilateral, IsExactForPureBendingOfARectangle) {
   const double modulus = c(0, 0) - c(0, 1) * c(0, 1) / c(1, 1);
   EXPECT_NEAR(modulus, 10003.3, 0.1);  // of unmodified poplar
   const auto u = sample(corners, [&](const Vec<2>& x) { return Vec<2>(-kappa * x[0] * x[1], 0); });
-  const auto k = incompatible_quadrilateral(corners, c);
+  const auto k = incompatible_element<2>(corners, c);
   EXPECT_NEAR(0.5 * u.dot(k * u) / (0.5 * modulus * std::pow(height, 3) / 12 * kappa * kappa * length), 1, 1e-12);
 }
 
 TEST(IncompatibleQuadrilateral, RejectsAnInvertedElement) {
   auto corners = distorted();
   std::swap(corners[1], corners[3]);
-  EXPECT_THROW(incompatible_quadrilateral(corners, in_section(poplar(), Vec<2>(1, 0))), RunError);
+  EXPECT_THROW(incompatible_element<2>(corners, in_section(poplar(), Vec<2>(1, 0))), RunError);
 }
 
 }  // namespace

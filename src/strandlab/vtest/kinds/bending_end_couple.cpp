@@ -16,13 +16,13 @@ struct EndForce {
   double height = 0;                       // mm
 };
 
-EndForce end_force(const statics::Mesh& mesh, const statics::StrandMesh& strand) {
-  const double bottom = mesh.nodes[strand.node(strand.along, 0)][1];
-  const double top = mesh.nodes[strand.node(strand.along, strand.through)][1];
+EndForce end_force(const statics::Mesh<2>& mesh, const statics::StrandMesh<2>& strand) {
+  const double bottom = mesh.nodes[strand.node(strand.along(), 0)][1];
+  const double top = mesh.nodes[strand.node(strand.along(), strand.through())][1];
   EndForce force;
   force.height = 0.5 * (bottom + top);
-  for (int j = 0; j < strand.through; ++j) {
-    const int lower = strand.node(strand.along, j), upper = strand.node(strand.along, j + 1);
+  for (int j = 0; j < strand.through(); ++j) {
+    const int lower = strand.node(strand.along(), j), upper = strand.node(strand.along(), j + 1);
     const double half = 0.5 * (mesh.nodes[upper][1] - mesh.nodes[lower][1]) / (top - bottom);
     force.at.emplace_back(lower, half);
     force.at.emplace_back(upper, half);
@@ -32,9 +32,9 @@ EndForce end_force(const statics::Mesh& mesh, const statics::StrandMesh& strand)
 
 // Nodal forces of a couple of moment 1 N mm: an even axial traction over the end face of the outermost strand on either
 // side that reaches x = length, pulling below and pushing above. Throws InputError if that is one and the same strand.
-std::vector<double> couple_forces(const Connection& connection, const statics::Mesh& mesh) {
-  const statics::StrandMesh *lowest = nullptr, *highest = nullptr;
-  const auto end_height = [&](const statics::StrandMesh& s) { return mesh.nodes[s.node(s.along, 0)][1]; };
+std::vector<double> couple_forces(const Connection& connection, const statics::Mesh<2>& mesh) {
+  const statics::StrandMesh<2>*lowest = nullptr, *highest = nullptr;
+  const auto end_height = [&](const statics::StrandMesh<2>& s) { return mesh.nodes[s.node(s.along(), 0)][1]; };
   for (const auto& strand : mesh.strands) {
     if (!connection.at_right[strand.strand]) continue;
     if (lowest == nullptr || end_height(strand) < end_height(*lowest)) lowest = &strand;
@@ -57,7 +57,7 @@ statics::Supports clamped_supports(const Model& model) {
 }
 
 // The rotation that the couple works through and the moment that arrives at the clamp give the modulus from reactions.
-Modulus end_couple_modulus(const Model& model, const std::vector<double>& couple, const statics::Solution& bent) {
+Modulus end_couple_modulus(const Model& model, const std::vector<double>& couple, const statics::Solution<2>& bent) {
   const auto& section = model.section;
   double rotation = 0;  // work of a couple of 1 N mm
   for (std::size_t i = 0; i < couple.size(); ++i) rotation += couple[i] * bent.displacement[i];

@@ -9,7 +9,7 @@
 
 namespace strandlab::vtest {
 
-using Solutions = std::vector<const statics::Solution*>;
+using Solutions = std::vector<const statics::Solution<2>*>;
 
 // A test on a model: its load cases, and the modulus that their solutions (in that order) say. A load case that two
 // tests on the same supports have in common is solved once.
