@@ -277,14 +277,17 @@ void StrandMechanics::settle(const Move& move, double seconds) {
     if (passed >= time) break;
     double closing = 0;
     if (move.by_pressure) {
-      closing = -gap() * (filtered_ - wanted) / (kServoModulus * kServoTransits * wave);
+      // The mean lags behind the mat: where the platens feel no more than wanted now, they do not open further.
+      const double felt = std::min(filtered_, std::max(wanted, now_));
+      closing = -gap() * ((filtered_ > wanted ? felt : filtered_) - wanted) / (kServoModulus * kServoTransits * wave);
       closing = std::clamp(closing, -kServoSpeed * full, kServoSpeed * full);
       closing = std::min(closing, std::max(0., gap() - least) / dt);
     } else if (move.height / kMm > gap()) {
       closing = -std::min(kServoSpeed * full, (move.height / kMm - gap()) / dt);
     }
     step(closing, seconds / time);
-    filtered_ += (.5 * (engine_->top_force() + engine_->bottom_force()) / area - filtered_) * std::min(1., dt / wave);
+    now_ = .5 * (engine_->top_force() + engine_->bottom_force()) / area;
+    filtered_ += (now_ - filtered_) * std::min(1., dt / wave);
     if (n % kDampedSteps == 0) engine_->scale_velocities(std::exp(-damping * kDampedSteps * dt));
     if (passed > (1 - kRead) * time) {
       sum_s_ += dt;
@@ -362,7 +365,7 @@ void StrandMechanics::visit(Numbers& numbers) {
   numbers(thickness_);
   numbers(stiffness_);
   numbers(yield_);
-  for (auto* number : {&stress_, &waiting_, &velocity_, &wanted_, &held_, &filtered_}) numbers(*number);
+  for (auto* number : {&stress_, &waiting_, &velocity_, &wanted_, &held_, &filtered_, &now_}) numbers(*number);
   numbers(by_pressure_);
   numbers(limited_);
   numbers(at_stop_);

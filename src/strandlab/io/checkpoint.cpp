@@ -108,8 +108,8 @@ void visit_press(AnyCheckpoint& checkpoint, const Visit& visit) {
 
 template <class AnyPanel, class Visit>
 void visit_panel(AnyPanel& panel, const Visit& visit) {
-  auto& [length, depth, initial_thickness, bottom, top, time, strands] = panel;
-  static_cast<void>(strands);
+  auto& [length, depth, periodic, initial_thickness, bottom, top, time, strands] = panel;
+  static_cast<void>(std::tie(periodic, strands));  // of panels in 3D, which are in no file; in datasets of their own
   visit("length_mm", Label{"mm", "length of the window along x"}, length);
   visit("depth_mm", Label{"mm", "width across; 1 for a section"}, depth);
   visit("initial_thickness_mm", Label{"mm", "platen gap of the mat as formed"}, initial_thickness);

@@ -64,6 +64,9 @@ template <int Dim>
                                           const Pack (&strain)[6], const Pack& J, double* block, Pack& stress_change,
                                           long long& yielding, Mask& finite) {
   const double* factors = body.condition + 2 * static_cast<long>(b) * kBlock;
+  if (step.rate.exponent == 0 && !any((load(factors) != 1.0) | (load(factors + kBlock) != 1.0))) {
+    return update_stress<Dim>(body, wood::AsMeasured<Pack>{}, strain, J, block, stress_change, yielding, finite);
+  }
   Pack size{};
   for (const auto& s : strain) size = larger(size, absolute(s));
   const wood::Conditioned<Pack> condition{load(factors),   load(factors + kBlock), size,     step.rate.exponent,

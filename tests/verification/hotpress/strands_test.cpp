@@ -1,0 +1,329 @@
+// A mat pressed hot strand by strand, with temperatures and moisture contents that are given: against the column, to
+// which it comes down where strands neither spread nor couple their strains; its energies, sets and bits.
+#include "strandlab/hotpress/strands.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "default_press.hpp"
+#include "strandlab/core/error.hpp"
+#include "support/near.hpp"
+#include "support/report.hpp"
+#include "support/strands.hpp"
+
+namespace strandlab::hotpress {
+namespace {
+
+using strandlab::test::below;
+using strandlab::test::SameBits;
+using strandlab::test::strand_between;
+
+constexpr int kRows = 6;
+constexpr double kRow = .8, kWidth = 1.6;  // mm
+
+// Crushing wood that does not couple its strains: confined it follows the law of a column.
+wood::Material uncoupled() {
+  auto wood = wood::library().front();
+  wood.law = wood::Law::kCrushing;
+  wood.nu_RL = wood.nu_TL = wood.nu_TR = 0;
+  wood.crushing.c = 0;
+  return wood;
+}
+
+Panel<2> stack(const wood::Material& wood) {
+  Panel<2> panel;
+  panel.length_mm = kWidth;
+  panel.initial_thickness_mm = panel.top_mm = kRows * kRow;
+  for (int row = 0; row < kRows; ++row) {
+    auto strand = strand_between<2>(wood::in_strand_axes(wood, 0), Vec<2>(0, row * kRow),
+                                    Vec<2>(kWidth, (row + 1) * kRow), {12, 6});
+    strand.row = row;
+    panel.strands.push_back(strand);
+  }
+  return panel;
+}
+
+StrandPress slow_press(const Panel<2>& panel, int threads = 1) {
+  StrandPress how;
+  mpm::Options options;
+  options.friction = options.platen_friction = 0;
+  options.threads = threads;
+  how.setup = press::setup(panel, {3, 1, true}, mpm::Side::kRoller, options);
+  how.speed_m_s = 4;
+  how.cells = 12;
+  return how;
+}
+
+// Hot, dry faces and a cool, moist core; two cells a row.
+std::vector<transfer::CellState> warm() {
+  std::vector<transfer::CellState> state;
+  for (int i = 0; i < 2 * kRows; ++i) {
+    const double s = std::abs((i / 2 + .5) / kRows - .5) * 2;  // 0 in the core, the same over a row
+    state.push_back({40 + 120 * s, .10 - .07 * s, 1e5});
+  }
+  return state;
+}
+
+std::vector<Layer> layers(const wood::Material& wood) {
+  return std::vector<Layer>(2 * kRows, layer_of(wood, 1e-3 * kRow / 2));
+}
+
+Move to(double height, double final_height) {
+  Move move;
+  move.height = height;
+  move.final_height = final_height;
+  return move;
+}
+
+// Closed in 20 s to .62 of its thickness, step by step, then held for 10, 100 and 1000 s, each in so many parts.
+struct Held {
+  double height, stress;  // m, Pa
+};
+template <class Mechanics>
+std::vector<Held> press(Mechanics& mechanics, const std::vector<transfer::CellState>& state, int parts) {
+  const double from = 1e-3 * kRows * kRow, end = .62 * from;
+  constexpr int kSteps = 80;
+  std::vector<Held> record;
+  for (int k = 1; k <= kSteps; ++k) {
+    auto move = to(from + (end - from) * k / kSteps, end);
+    mechanics.move(move, state, 20. / kSteps);
+    record.push_back({move.height, mechanics.stress()});
+  }
+  for (int k = 0; k < 3; ++k) {
+    auto move = to(end, end);
+    move.last = true;
+    for (int n = 0; n < parts; ++n) mechanics.move(move, state, 10 * std::pow(10, k) / parts);
+    record.push_back({end, mechanics.stress()});
+  }
+  return record;
+}
+
+// Points of a row are as warm as their place between the middles of the cells says; with the same state over a row and
+// 12 cells a row's outer points are a little like its neighbours': the column takes the mean factors of each cell so.
+TEST(Strands, FollowTheColumnAtGivenTemperatures) {
+  const auto wood = uncoupled();
+  const auto panel = stack(wood);
+  StrandMechanics strands(panel, slow_press(panel));
+  ColumnMechanics column(layers(wood), {}, {});
+  const std::vector<transfer::CellState> even(12, {90, .07, 1e5});
+  strands.condition(even);
+  column.condition(even);
+  const auto given = press(strands, even, 4), expected = press(column, even, 400);
+  double worst = 0;
+  for (std::size_t i = 8; i < given.size(); ++i)
+    worst = std::max(worst, std::abs(given[i].stress / expected[i].stress - 1));
+  report("stress of a stack of strands at 90 C and 7 %, closed in 20 s and held for 1110 s, against the column", worst,
+         below(.02));
+  const auto& last = strands.records().back();
+  report("its balance of energy over the platens' work", std::abs(last.balance_error()), below(.01));
+}
+
+TEST(Strands, LayersFollowTheColumnBetweenHotFacesAndACoolCore) {
+  const auto wood = uncoupled();
+  const auto panel = stack(wood);
+  StrandMechanics strands(panel, slow_press(panel));
+  ColumnMechanics column(layers(wood), {}, {});
+  strands.condition(warm());
+  column.condition(warm());
+  const auto given = press(strands, warm(), 4), expected = press(column, warm(), 400);
+  double worst = 0;
+  for (std::size_t i = 8; i < given.size(); ++i)
+    worst = std::max(worst, std::abs(given[i].stress / expected[i].stress - 1));
+  report("stress of a stack with faces of 160 C and a core of 40 C, against the column", worst,
+         below(.1).because("points between the middles of two cells have what lies between, a column's layers jump"));
+  double thickness = 0;
+  const auto a = strands.thickness(), b = column.thickness();
+  for (int row = 0; row < kRows; ++row) {
+    const auto i = static_cast<std::size_t>(2 * row);
+    thickness = std::max(thickness, std::abs((a[i] + a[i + 1]) / (b[i] + b[i + 1]) - 1));
+  }
+  report("thickness of its rows, against the column", thickness, below(.05));
+}
+
+// Held at a height while it gets hot: the elastic strain stays, so does the plastic one where nothing yields, and the
+// stress falls as the stiffness. Cooled again, the stress stays; what would make it grow is locked in.
+TEST(Strands, HeatRelaxesStressAndColdKeepsIt) {
+  auto wood = uncoupled();
+  wood.crushing.Y_R = 1e3;  // elastic
+  const auto panel = stack(wood);
+  auto how = slow_press(panel);
+  how.rate.exponent = 0;
+  StrandMechanics strands(panel, how);
+  const std::vector<transfer::CellState> cold(12, {20, .12, 1e5}), hot(12, {120, .08, 1e5});
+  strands.condition(cold);
+  const double height = .98e-3 * kRows * kRow;
+  auto move = to(height, height);
+  move.last = true;
+  strands.move(move, cold, 1);
+  strands.move(move, cold, 1);
+  const double before = strands.stress();
+  strands.move(move, hot, 1);
+  const double relaxed = strands.stress();
+  strands.move(move, cold, 1);
+  const double kept = strands.stress();
+  const Softening softening;
+  const double e = stiffness_factor(softening, 120, .08) / stiffness_factor(softening, 20, .12);
+  report("stress after heating at a given height over that before, against the stiffnesses'", relaxed / before / e,
+         strandlab::test::near(1, 1e-3));
+  report("stress after cooling again over that hot", kept / relaxed, strandlab::test::near(1, 1e-3));
+  // Unloaded, it springs back by the elastic strain of cold wood only.
+  Move free;
+  free.by_pressure = free.last = true;
+  free.fastest = 1;
+  for (int k = 0; k < 6; ++k) {
+    strands.move(free, cold, 1);
+  }
+  const double strain = 1 - height / (1e-3 * kRows * kRow);
+  report("strain that stays of a heated and cooled stack, over that given",
+         (1 - strands.height_unloaded() / (1e-3 * kRows * kRow)) / strain, strandlab::test::near(1 - e, .02));
+  report("balance of energy with what softening takes", std::abs(strands.records().back().balance_error()), below(.01));
+  EXPECT_GT(strands.records().back().softening_mJ, 0);
+}
+
+// Factors of 1 and no rate: the press as it is cold, bit for bit.
+TEST(Strands, OfFactorOneArePressedAsColdOnes) {
+  auto wood = wood::library().front();
+  wood.law = wood::Law::kCrushing;
+  auto cold = stack(wood), neutral = cold;
+  for (auto& strand : neutral.strands) {
+    strand.points.stiffness_factor.assign(strand.size(), 1);
+    strand.points.yield_factor.assign(strand.size(), 1);
+  }
+  press::Schedule schedule;
+  schedule.compactions = {.3};
+  std::vector<Panel<2>> pressed;
+  press::Sink<2> sink;
+  sink.snapshot = [&](const Panel<2>& panel, int) { pressed.push_back(panel); };
+  for (const auto* mat : {&cold, &neutral})
+    press::press<2>(*mat, schedule, press::setup(*mat, {3, 1, true}, mpm::Side::kRoller, {}), sink);
+  ASSERT_EQ(pressed.size(), 2U);
+  for (std::size_t s = 0; s < pressed[0].strands.size(); ++s) {
+    const auto &a = pressed[0].strands[s].points, &b = pressed[1].strands[s].points;
+    EXPECT_THAT(a.x, SameBits(b.x));
+    EXPECT_THAT(a.F, SameBits(b.F));
+    EXPECT_THAT(a.stress, SameBits(b.stress));
+    EXPECT_THAT(a.plastic, SameBits(b.plastic));
+  }
+}
+
+TEST(Strands, SoftenedAlreadyAreRefused) {
+  auto panel = stack(uncoupled());
+  panel.strands[2].stiffness_factor = .5;
+  EXPECT_THROW(StrandMechanics(panel, slow_press(panel)), InputError);
+}
+
+// ---- Whole cycles of a small mat ------------------------------------------------------------------------------------
+
+Settings short_cycle(double step) {
+  auto s = test::settings_of(Mechanics::kStrands, 6, step,
+                             {"close to 60 % in 4 s", "hold until 8 s", "vent 2 s", "open 2 s"});
+  return s;
+}
+
+PressedMat mat_of(const wood::Material& wood) {
+  PressedMat mat;
+  mat.thickness = 1e-3 * kRows * kRow;
+  mat.layers = {{mat.thickness * wood.density_kg_m3, wood}};
+  return mat;
+}
+
+struct Stop {
+  press::Checkpoint<2> checkpoint;
+  std::vector<double> state;
+};
+struct Whole {
+  Cycle cycle;
+  Panel<2> panel;
+  std::vector<press::Record> records;
+  std::vector<Stop> stops;
+};
+
+Whole whole(int threads, double step, const Stop* from = nullptr) {
+  auto wood = wood::library().front();
+  wood.law = wood::Law::kCrushing;
+  const auto panel = stack(wood);
+  auto how = slow_press(panel, threads);
+  how.speed_m_s = 16;
+  StrandMechanics strands = from ? StrandMechanics(from->checkpoint, how) : StrandMechanics(panel, how);
+  Whole all;
+  Watch watch;
+  std::size_t exchanges = 0;
+  watch.step = [&](const Instant&, const std::function<std::vector<double>()>& state) {
+    if (strands.records().size() == exchanges) return;
+    exchanges = strands.records().size();
+    if (exchanges % 9 == 4) all.stops.push_back({strands.checkpoint(), state()});
+  };
+  all.cycle = press_hot(short_cycle(step), mat_of(wood), strands, watch, from ? from->state : std::vector<double>());
+  all.panel = strands.panel(std::vector<StrandMechanics::Reading>(12));
+  all.records = strands.records();
+  return all;
+}
+
+void expect_same(const Whole& a, const Whole& b) {
+  ASSERT_EQ(a.cycle.record.size(), b.cycle.record.size());
+  for (std::size_t i = 0; i < a.cycle.record.size(); ++i) {
+    const auto &x = a.cycle.record[i], &y = b.cycle.record[i];
+    EXPECT_EQ(x.time, y.time) << i;
+    EXPECT_EQ(x.pressure, y.pressure) << i;
+    EXPECT_EQ(x.mark, y.mark) << i;
+    for (std::size_t c = 0; c < x.cells.size(); ++c) {
+      EXPECT_EQ(x.cells[c].T, y.cells[c].T) << i << " " << c;
+      EXPECT_EQ(x.cells[c].density, y.cells[c].density) << i << " " << c;
+    }
+  }
+  ASSERT_EQ(a.records.size(), b.records.size());
+  EXPECT_EQ(a.records.back().softening_mJ, b.records.back().softening_mJ);
+  for (std::size_t s = 0; s < a.panel.strands.size(); ++s) {
+    for_each_field<2>([&](const auto& field) {
+      EXPECT_THAT(a.panel.strands[s].points.*field.values, SameBits(b.panel.strands[s].points.*field.values))
+          << field.name << " of strand " << s;
+    });
+  }
+}
+
+const Whole& undisturbed() {
+  static const Whole all = whole(1, .25);
+  return all;
+}
+
+TEST(HotCycle, ThreeThreadsGiveTheSameBits) {
+  expect_same(whole(3, .25), undisturbed());
+}
+
+TEST(HotCycle, GoesOnFromAnyExchangeToTheSameBits) {
+  ASSERT_GE(undisturbed().stops.size(), 4U);
+  for (const auto& stop : undisturbed().stops) {
+    SCOPED_TRACE("from step " + std::to_string(stop.checkpoint.engine.step));
+    expect_same(whole(1, .25, &stop), undisturbed());
+  }
+}
+
+TEST(HotCycle, BalancesItsEnergyAndSpringsBackALittle) {
+  double worst = 0;
+  for (const auto& r : undisturbed().records) {
+    if (r.compaction > .1) worst = std::max(worst, std::abs(r.balance_error()));
+  }
+  report("energy of a hot cycle over the platens' work, worst exchange", worst, below(.01));
+  const auto& record = undisturbed().cycle.record;
+  const auto held = std::find_if(record.begin(), record.end(), [](const auto& i) { return i.mark == "held"; });
+  const double springback = record.back().thickness / held->thickness - 1;
+  EXPECT_GT(springback, 0);
+  EXPECT_LT(springback, .02);
+}
+
+// The scheme is of first order in the exchange's time.
+TEST(HotCycle, HalfTheStepChangesLittle) {
+  const auto half = whole(1, .125);
+  const auto &a = undisturbed().cycle.record.back(), &b = half.cycle.record.back();
+  double T = 0, density = 0;
+  for (std::size_t c = 0; c < a.cells.size(); ++c) {
+    T = std::max(T, std::abs(a.cells[c].T - b.cells[c].T));
+    density = std::max(density, std::abs(a.cells[c].density / b.cells[c].density - 1));
+  }
+  report("temperature of any layer after a hot cycle, half the step", T, below(1), "K");
+  report("density of any layer, half the step", density, below(.01));
+}
+
+}  // namespace
+}  // namespace strandlab::hotpress
