@@ -89,6 +89,24 @@ template <class Ops, class T, class Condition>
   }
 }
 
+// Where the search begins if the rate counts: the flow at which 1/q, straight in mu from the trial on, meets a surface
+// that does not harden, from 1/q0 + x s3/(q0^3 scale) = x^-n/limit in ln x, x = mu scale the speed over the reference.
+template <class Ops, class T>
+[[gnu::always_inline]] inline T first_flow(const Conditioned<T>& c, const Flow<T>& trial, const T& limit) {
+  constexpr int kSteps = 4;
+  const T scale = trial.q * (c.per_strain / c.Y_R);
+  const T start = 1.0 / trial.q, slope = trial.s3 / (trial.q * trial.s2 * scale), inverse = 1.0 / limit;
+  T x = (c.strain + 1e-14) * c.per_strain;
+  for (int i = 0; i < kSteps; ++i) {
+    const auto counts = x > c.floor;
+    const T power = inverse * Ops::power(Ops::select(counts, x, T{} + c.floor), -c.exponent);
+    const T straight = slope * x;
+    const T part = (power - start - straight) / (straight + Ops::select(counts, c.exponent * power, T{}));
+    x = Ops::select(part > 0.0, x * (1.0 + part), x / (1.0 - part));
+  }
+  return x / scale;
+}
+
 // Return mapping. On entry tau is the trial (Kirchhoff) stress, J the total volume ratio, `history` the law's history
 // variable and `radius` that of the surface there, before condition and rate. Where the trial lies outside, tau,
 // history and radius are updated to the closest point in the energy norm (associated flow, backward Euler); the return
@@ -124,6 +142,7 @@ template <class L, class Ops, int N, class Condition = AsMeasured<typename Ops::
 
   // Lanes that do not yield are carried along and discarded.
   constexpr int kMostIterations = 200, kNewtonAlone = 8;
+  constexpr double kRatedTolerance = 1e-9;  // a step of the search costs a power there
   T d[N];
   for (int i = 0; i < N; ++i) d[i] = T{} + 1.0;
   T lo = T{}, hi = T{} + 1e300;
@@ -143,12 +162,12 @@ template <class L, class Ops, int N, class Condition = AsMeasured<typename Ops::
     hard = law.at(flow);
   };
   if constexpr (Condition::kConditioned) {
-    if (rated) go_to((condition.strain + 1e-14) * condition.Y_R / flow.q);
+    if (rated) go_to(first_flow<Ops>(condition, flow, T(J * (condition.g * radius))));
   }
   Strength<T> now = strength<Ops>(condition, hard, flow);
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     const T r = flow.q - J * now.radius;
-    const auto converged = Ops::absolute(r) <= 1e-12 * flow.q;
+    const auto converged = Ops::absolute(r) <= (rated ? kRatedTolerance : 1e-12) * flow.q;
     if (!Ops::any(yields & !converged)) break;
     lo = Ops::select(r > 0.0, flow.mu, lo);
     hi = Ops::select(r > 0.0, hi, flow.mu);
