@@ -4,7 +4,7 @@ import csv
 import json
 import pathlib
 
-from program import DONE, check, expect_bad_input, finish, scratch, strandlab
+from program import BAD_INPUT, DONE, check, expect_bad_input, finish, scratch, strandlab
 
 # The column's mat of the check values: 20 full rows of poplar, .8 mm x 350 kg/m3 each, pressed from 16 to 9 mm.
 CASE = """[mat]
@@ -104,9 +104,44 @@ def a_case_without_hotpress():
 
 def a_cold_run_says_so():
     small = ["mat.length_mm=4", 'mat.rows=["surface*2"]', "press.compactions=[0, 0.02]", "grid.cells_through_strand=1",
-             "kinds.core.law=hill", "kinds.surface.law=hill"]
+             "kinds.core.law=hill", "kinds.surface.law=hill", "hotpress.mechanics=column"]
     done = strandlab("press", "hot.toml", "-o", "cold_run", *(part for s in small for part in ("--set", s)))
     check(done.returncode == DONE and "this pressing is cold" in done.stderr + done.stdout, f"cold: {done.stderr}{done.stdout}")
+
+
+# Four rows of 4 mm, pressed strand by strand: what `strandlab run` makes of a case with [hotpress].
+def a_hot_run():
+    small = ["mat.length_mm=4", 'mat.rows=["surface", "core*2", "surface"]', "grid.cells_through_strand=2", "run.threads=1",
+             'hotpress.schedule=["close to 55 % in 4 s", "hold until 40 s", "vent 2 s", "open 2 s"]']
+    settings = [part for s in small for part in ("--set", s)]
+    done = strandlab("run", "hot.toml", "-o", "strands", *settings)
+    check(done.returncode == DONE, f"run: {done.stderr}{done.stdout}")
+    check("press time to cure" in done.stdout + done.stderr, "the answers are told")
+    record = rows("strands/hotpress.csv")
+    for name in ("time_s", "gap_mm", "pressure_MPa", "T_face_C", "T_core_C", "M_face", "M_core", "gas_core_kPa", "cure_core"):
+        check(name in record[0], f"column {name}")
+    closed = [r for r in record if r["phase"] == "close"][-1]
+    check(abs(float(closed["gap_mm"]) - 0.45 * 3.2) < 1e-3 and abs(float(closed["time_s"]) - 4) < 1e-6, "closed to 55 % in 4 s")
+    check(abs(float(record[-1]["time_s"]) - 44) < 1e-6 and float(record[-1]["gap_mm"]) > 0.45 * 3.2, "opened, thicker than closed")
+    written = json.loads(pathlib.Path("strands/run.json").read_text(encoding="utf-8"))
+    hot = written["hotpress"]
+    check(hot["mechanics"] == "strands" and hot["core_100C_s"] is not None, "answers in run.json")
+    check(hot["gas_core_peak_kPa_K_times_3"] < hot["gas_core_peak_kPa"] < hot["gas_core_peak_kPa_K_over_3"], "band of gas")
+    press_csv = rows("strands/press.csv")
+    check(float(press_csv[-1]["softening_mJ"]) > 0 and float(press_csv[-1]["damping_mJ"]) >= 0, "energies of the hot press")
+    moduli = rows("strands/moduli.csv")
+    check(len(moduli) > 0 and all(0 < float(m["modulus_MPa"]) < 12000 for m in moduli), "moduli of the panel as opened")
+    check(len(list(pathlib.Path("strands/panels").glob("*.h5"))) == 1, "one panel is kept")
+    vtu = next(pathlib.Path("strands/paraview").glob("*.vtu")).read_text(encoding="utf-8", errors="replace")
+    for name in ("temperature_C", "moisture_content", "gas_pressure_kPa", "degree_of_cure", "bond_quality"):
+        check(f'Name="{name}"' in vtu, f"{name} in ParaView's file")
+    check("transfer_profiles.csv" in pathlib.Path("strands/report.html").read_text(encoding="utf-8"), "the page has the cycle")
+    two = strandlab("press", "hot.toml", "-o", "two", *settings, "--set", "run.threads=2")
+    check(two.returncode == DONE, f"two threads: {two.stderr}")
+    check(pathlib.Path("two/hotpress.csv").read_bytes() == pathlib.Path("strands/hotpress.csv").read_bytes(), "same bits with two threads")
+    other = strandlab("run", "hot.toml", "-o", "strands", *settings, "--set", "hotpress.moisture_face=0.1")
+    check(other.returncode == BAD_INPUT, "another cycle is another case")
+    expect_bad_input(["hotpress", "hot.toml", "-o", "strands"], ["holds the panels of strandlab run"])
 
 
 def logs():

@@ -49,7 +49,24 @@ export interface MatData {
   layers: {role: string; thickness_mm?: number; strands: MatStrand[]}[];
 }
 
+// What run.json has under hotpress, as far as the page shows it; null: not in this cycle.
+export interface HotPressRecord {
+  press_time_to_cure_s: number | null;
+  press_factor_s_per_mm: number | null;
+  core_100C_s: number | null;
+  gas_core_peak_kPa: number;
+  gas_core_peak_kPa_K_times_3: number;
+  gas_core_peak_kPa_K_over_3: number;
+  blow_risk: number;
+  blow_risk_K_times_3: number;
+  blow_risk_K_over_3: number;
+  density_peak_over_core: number;
+  density_peak_depth_mm: number;
+  springback_percent: number;
+}
+
 export interface RunRecord {
+  hotpress?: HotPressRecord;
   strandlab?: string;
   git?: string;
   seed?: number;

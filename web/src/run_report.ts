@@ -3,6 +3,7 @@ import {Chart, formatNumber, type Series} from './chart';
 import type {Run} from './data';
 import {downloadText, button, el, fileName} from './dom';
 import {unpack} from './frames';
+import {hotPressCharts, hotPressTiles} from './hotpress';
 import {layupFigure} from './layup';
 import {SectionView, type SectionOptions} from './section';
 import {slipState, type SlipState} from './slip';
@@ -105,6 +106,7 @@ function pressCharts(run: Run): Chart[] {
   const platen = (name: string) => press.numbers(name).map(force => force / length_mm);
   const percents = compaction.map(c => 100 * c);
   const x = {min: 0, max: Math.max(1, Math.round(Math.max(...percents)))};
+  const hot = ([['softening_mJ', 'softening'], ['damping_mJ', 'damping']] as const).filter(([column]) => press.has(column));
   const energy = (name: string, label: string): Series => ({name: label, x: percents, y: press.numbers(name)});
   return [
     new Chart({
@@ -125,8 +127,9 @@ function pressCharts(run: Run): Chart[] {
         {name: "platens' work", x: percents, y: press.numbers('platen_work_mJ'), style: 'dashed', ink: true},
         energy('plastic_mJ', 'plastic'), energy('elastic_mJ', 'elastic'), energy('friction_mJ', 'friction'),
         energy('contact_mJ', 'contact'), energy('filter_mJ', 'filter'), energy('kinetic_mJ', 'kinetic'),
+        ...hot.map(([column, name]) => energy(column, name)),
       ],
-      table: press.select(['compaction', 'platen_work_mJ', 'plastic_mJ', 'elastic_mJ', 'friction_mJ', 'contact_mJ', 'filter_mJ', 'kinetic_mJ']),
+      table: press.select(['compaction', 'platen_work_mJ', 'plastic_mJ', 'elastic_mJ', 'friction_mJ', 'contact_mJ', 'filter_mJ', 'kinetic_mJ', ...hot.map(([column]) => column)]),
       x, summary: "The platens' work and the energies it turns into, against compaction.",
     }),
   ];
@@ -318,14 +321,20 @@ function provenance(run: Run): HTMLElement {
         downloadText('case.toml', 'text/plain', run.case_text)))));
 }
 
+function hotPress(run: Run, grid: (charts: Chart[]) => HTMLElement | null): HTMLElement | null {
+  const series = table(run, 'hotpress.csv');
+  if (!series || !run.record.hotpress) return null;
+  return section('The hot press', hotPressTiles(run.record.hotpress), grid(hotPressCharts(series, table(run, 'transfer_profiles.csv'))));
+}
+
 // ---- all of it
 
-function stressAt(run: Run): ((compaction: number) => number | undefined) | undefined {
+function stressAt(run: Run): ((time_ms: number) => number | undefined) | undefined {
   const press = table(run, 'press.csv');
   if (!press) return undefined;
-  const compaction = press.numbers('compaction'), stress = press.numbers('stress_MPa');
+  const time = press.numbers('time_ms'), stress = press.numbers('stress_MPa');
   return at => {
-    const i = compaction.findIndex(c => c >= at - 1e-9);
+    const i = time.findIndex(t => t >= at * (1 - 1e-9));
     return i < 0 ? stress[stress.length - 1] : stress[i];
   };
 }
@@ -342,6 +351,7 @@ export function runReport(run: Run): {title: string; content: Node[]; view?: Sec
     tiles(run),
     view ? section('The section through the pressing', view.element) : null,
     findings(run),
+    hotPress(run, grid),
     press.length > 0 ? section('Pressing', grid(press)) : null,
     moduli.length > 0 ? section('Stiffness', grid(moduli)) : null,
     histograms.length > 0 ? section('Density and shape', grid(histograms)) : null,

@@ -14,7 +14,7 @@ import {colour, onThemeChange} from './theme';
 export interface SectionOptions {
   id: string;       // names the downloads
   kinds: string[];  // in the order of the case, for their colours
-  stressAt?: (compaction: number) => number | undefined;  // MPa
+  stressAt?: (time_ms: number) => number | undefined;  // MPa
   slips?: SlipState[];  // of the states that were tested
   // Density profile of the full state at a compaction, heights over the bottom face.
   measuredProfile?: (compaction: number) => {label: string; y_mm: number[]; density_kg_m3: number[]} | undefined;
@@ -530,7 +530,7 @@ export class SectionView {
     const frame = this.frame;
     this.slider.value = String(this.index);
     const parts = [`${(100 * Math.max(0, frame.compaction)).toFixed(1)} % compaction`, `${(frame.top_mm - frame.bottom_mm).toFixed(2)} mm thick`];
-    const stress = this.options.stressAt?.(frame.compaction);
+    const stress = this.options.stressAt?.(frame.time_ms);
     if (stress !== undefined) parts.push(`${stress.toFixed(2)} MPa`);
     this.status.textContent = parts.join(' · ');
     this.slider.setAttribute('aria-valuetext', parts.join(', '));

@@ -114,10 +114,11 @@ mat::Layup layup(const Case& c) {
 }
 
 std::vector<StrandKind> strand_kinds(const Case& c) {
+  const bool hot = presses_hot(c);  // then heat softens the wood, and no factors that stand in for it
   std::vector<StrandKind> kinds;
   for (const auto& kind : c.kinds) {
-    kinds.push_back({kind.name, find_material(c, kind.material), kind.angle_deg, kind.yield_factor,
-                     kind.stiffness_factor, c.off_axis});
+    kinds.push_back({kind.name, find_material(c, kind.material), kind.angle_deg, hot ? 1 : kind.yield_factor,
+                     hot ? 1 : kind.stiffness_factor, c.off_axis});
     kinds.back().material.law = kind.law;
   }
   return kinds;

@@ -95,6 +95,7 @@ std::string ready_case_title(const std::string& name);
 // Rows of the layup with the statistics, thickness and angles of their kinds. Throws InputError for a row that names no
 // kind.
 mat::Layup layup(const Case& c);
+// The kinds of strands; those that are pressed hot without the factors that stand in for heat.
 std::vector<StrandKind> strand_kinds(const Case& c);
 // The same and a kind for each of the case's materials: a strand of a mat file may name any of them, also one that no
 // kind uses.

@@ -72,15 +72,6 @@ void check_hotpress(const Case& c, const std::function<void(const std::string&, 
   check("permeability.table", [&] { static_cast<void>(permeability_table(h.permeability_table)); });
   check("resin.face", [&] { static_cast<void>(find_resin(c, h.resin_face)); });
   check("resin.core", [&] { static_cast<void>(find_resin(c, h.resin_core)); });
-  if (!presses_hot(c)) return;
-  for (const auto& kind : c.kinds) {
-    if (kind.yield_factor == 1 && kind.stiffness_factor == 1) continue;
-    fail(
-        "hotpress.mechanics",
-        fmt::format("kinds.{} has yield_factor = {} and stiffness_factor = {}, but a hot press finds by itself how far "
-                    "heat and moisture soften wood: leave both at 1, or press cold with mechanics = \"column\"",
-                    kind.name, kind.yield_factor, kind.stiffness_factor));
-  }
 }
 
 hotpress::Settings hotpress_settings(const Case& c) {

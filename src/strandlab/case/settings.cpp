@@ -103,11 +103,11 @@ std::vector<Declaration<KindSettings>> kind_settings() {
       declare("thickness_mm", "mm", kSizeOrZero, "thickness of the strands; 0: mat.layer_thickness_mm",
               &K::thickness_mm),
       declare("yield_factor", "", kSoftening,
-              "softening by heat and moisture: yield stresses and hardening_K over the material's; the pressing is "
-              "cold and does not find it by itself",
+              "softening by heat and moisture in a cold pressing: yield stresses and hardening_K over the material's; "
+              "a case with [hotpress] takes 1 and finds it by itself",
               &K::yield_factor),
       declare("stiffness_factor", "", kSoftening,
-              "softening in the hot press: elastic moduli over the material's; virtual tests are cold and take the "
+              "the same of elastic moduli; virtual tests are cold and take the "
               "material's",
               &K::stiffness_factor),
       declare_choice("law",

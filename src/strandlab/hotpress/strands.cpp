@@ -28,7 +28,7 @@ constexpr double kRead = .5;             // part of the settling, its end, from 
 constexpr double kServoTransits = 4, kServoModulus = 300;  // time and MPa of the control of pressure
 constexpr double kServoSpeed = .25;                        // of the platens' speed, at most, under control of pressure
 constexpr double kDuePressure = .1;  // of the stress held: its change for which the mat is settled anew
-constexpr double kJudged = .1;       // of the largest stress: from where the mat bears it a pressing is judged
+constexpr double kJudged = .5;       // of the largest stress: from where the mat bears it a pressing is judged
 
 double change(const std::vector<double>& before, const std::vector<double>& now) {
   double largest = 0;

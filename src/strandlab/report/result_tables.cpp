@@ -1,17 +1,28 @@
 #include "strandlab/report/result_tables.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace strandlab::report {
 
 files::CsvTable press_table(const std::vector<press::Record>& records) {
-  files::CsvTable table({"compaction", "time_ms", "stress_MPa", "force_top_N", "force_bottom_N", "kinetic_mJ",
-                         "internal_mJ", "plastic_mJ", "elastic_mJ", "friction_mJ", "contact_mJ", "filter_mJ",
-                         "platen_work_mJ"});
+  const bool hot = std::any_of(records.begin(), records.end(),
+                               [](const auto& r) { return r.softening_mJ != 0 || r.damping_mJ != 0; });
+  std::vector<std::string> columns{"compaction",     "time_ms",     "stress_MPa",  "force_top_N",
+                                   "force_bottom_N", "kinetic_mJ",  "internal_mJ", "plastic_mJ",
+                                   "elastic_mJ",     "friction_mJ", "contact_mJ",  "filter_mJ"};
+  if (hot) columns.insert(columns.end(), {"softening_mJ", "damping_mJ"});
+  columns.emplace_back("platen_work_mJ");
+  files::CsvTable table(columns);
   for (const auto& r : records) {
-    table.add_row({r.compaction, r.time_ms, r.stress_MPa, r.force_top_N, r.force_bottom_N, r.kinetic_mJ,
-                   r.internal_mJ(), r.plastic_mJ, r.elastic_mJ, r.friction_mJ, r.contact_mJ, r.filter_mJ,
-                   r.platen_work_mJ});
+    std::vector<files::CsvCell> row{r.compaction,     r.time_ms,     r.stress_MPa,    r.force_top_N,
+                                    r.force_bottom_N, r.kinetic_mJ,  r.internal_mJ(), r.plastic_mJ,
+                                    r.elastic_mJ,     r.friction_mJ, r.contact_mJ,    r.filter_mJ};
+    if (hot) row.insert(row.end(), {r.softening_mJ, r.damping_mJ});
+    row.emplace_back(r.platen_work_mJ);
+    table.add_row(row);
   }
   return table;
 }

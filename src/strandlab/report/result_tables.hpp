@@ -23,7 +23,7 @@ struct PanelModulus {
 };
 
 // compaction, time_ms, stress_MPa, force_top_N, force_bottom_N, kinetic_mJ, internal_mJ, plastic_mJ, elastic_mJ,
-// friction_mJ, contact_mJ, filter_mJ, platen_work_mJ; one row per record.
+// friction_mJ, contact_mJ, filter_mJ, of a hot press softening_mJ and damping_mJ, platen_work_mJ; one row per record.
 files::CsvTable press_table(const std::vector<press::Record>& records);
 
 // compaction, test, compliance_t_mm_per_MPa, modulus_MPa, reaction_modulus_MPa, shear_free_modulus_MPa (nan but for 3-

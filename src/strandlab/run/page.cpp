@@ -26,8 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr std::array kTables{"press.csv",      "moduli.csv",     "theory.csv",
-                             "morphology.csv", "histograms.csv", "profile.csv"};
+constexpr std::array kTables{"press.csv",      "moduli.csv",  "theory.csv",   "morphology.csv",
+                             "histograms.csv", "profile.csv", "hotpress.csv", "transfer_profiles.csv"};
 
 std::string needed_text(const fs::path& file) {
   auto text = files::read_text(file);

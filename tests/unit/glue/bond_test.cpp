@@ -35,6 +35,15 @@ TEST(Bond, IsPerfectWhereItsComplianceIsNegativeAndSaysSo) {
   EXPECT_EQ(sentences[0], "The glue compliance 1/D_n = -0.001 mm/MPa is negative; it is taken as a perfect bond.");
 }
 
+// (1/D_t)/Q + (1/Q - 1) .0105: half a bond of .01 is .02 + .0105, half a perfect one is a bond of little resin.
+TEST(Bond, IsSofterWhereItIsUnfinished) {
+  EXPECT_DOUBLE_EQ(unfinished({.01, .002}, .5).compliance_t, .0305);
+  EXPECT_DOUBLE_EQ(unfinished({.01, .002}, .5).compliance_n, .002);
+  EXPECT_DOUBLE_EQ(unfinished({0, 0}, .5).compliance_t, .0105);
+  EXPECT_DOUBLE_EQ(unfinished({-.01, 0}, .5).compliance_t, .0105);
+  for (const double given : {-.01, 0., .01}) EXPECT_EQ(unfinished({given, 0}, 1).compliance_t, given);
+}
+
 TEST(Bond, IsNoSofterThanTheFloorAndSaysSo) {
   EXPECT_EQ(stiffness({2000, 0}, kPenalty).tangential, kSoftest);
   EXPECT_EQ(stiffness({1000, 0}, kPenalty).tangential, kSoftest);

@@ -58,6 +58,20 @@ TEST(Cure, GluesWhatFacesEachOther) {
   }
 }
 
+// Strands whose resins have come to half and to a tenth of their strength: a bond of the mean, .3. Where the mean is
+// below .05 there is none.
+TEST(Cure, GivesBondsTheQualityOfTheirResins) {
+  auto panel = panel_of({{0, 0, 12.41}, {1, 7.13, 20}});
+  for (const auto& p : cure(panel, {})) EXPECT_EQ(p.quality, 1);
+  panel.strands[0].points.bond_quality.assign(panel.strands[0].size(), .5);
+  panel.strands[1].points.bond_quality.assign(panel.strands[1].size(), .1);
+  const auto points = cure(panel, {});
+  EXPECT_NEAR(glued_length(points), 12.41 - 7.13, 1e-9);
+  for (const auto& p : points) EXPECT_DOUBLE_EQ(p.quality, .3);
+  for (auto& strand : panel.strands) strand.points.bond_quality.assign(strand.size(), .04);
+  EXPECT_TRUE(cure(panel, {}).empty());
+}
+
 // The interpolation leads back to the position: corners segment and segment + 1 of the face, weights 1 - xi and xi.
 TEST(Cure, GivesTheInterpolationOnBothFaces) {
   const auto panel = panel_of({{0, 0, 12.41}, {1, 7.13, 20}});
