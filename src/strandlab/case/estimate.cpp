@@ -7,6 +7,7 @@
 #include <limits>
 #include <thread>
 
+#include "strandlab/case/hotpress.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/free_memory.hpp"
 
@@ -16,6 +17,9 @@ namespace {
 // Costs as measured on the reference machine (docs/performance.md).
 constexpr double kNsPerParticleStep = 80;         // one thread, mean over a pressing to 40 %
 constexpr double kSpeedUpPerThread = 0.7;         // of each further thread
+constexpr double kHotCost = 1.4;                  // of wood that heat softens, over that
+constexpr double kHotRamps = 1.5;                 // time steps get shorter as the mat gets thinner, ramps are longer
+constexpr double kSettlings = 80;                 // transits of waves through cold wood in which a hot mat settles
 constexpr double kBytesPerParticle = 700;         // of a pressing, grid included
 constexpr double kBytesPerStrand = 2000;          // in the mat, its text, the panel and the engine
 constexpr double kStoredBytesPerParticle = 600;   // of one state: HDF5 and ParaView
@@ -60,6 +64,16 @@ double elements(const Case& c, const Panel<2>& panel) {
     count += through * length / (thinnest / c.test.elements_through_strand * c.grid.cell_aspect);
   }
   return count;
+}
+
+// Of the engine, s: the press closes with longer ramps, then the mat settles again and again (hotpress/strands.cpp).
+double hot_pressing_time(double closing_s, const Panel<2>& panel) {
+  double slowest = 0, solid = 0;
+  for (const auto& strand : panel.strands) {
+    slowest = std::max(slowest, std::sqrt(strand.material.density / strand.material.stiffness(2, 2)));
+    solid += strand.lattice.point_volume() * static_cast<double>(strand.size()) / panel.length_mm;
+  }
+  return kHotRamps * closing_s + kSettlings * slowest * solid;
 }
 
 }  // namespace
@@ -117,6 +131,7 @@ Estimate estimate(const Case& c, const Panel<2>& panel) {
   e.time_step_s = c.mpm.courant * transit_time(panel, e.cell_length_mm, e.cell_height_mm);
   const double travel_mm = panel.initial_thickness_mm * c.schedule.compactions.back();
   e.pressing_time_s = travel_mm / (1e3 * c.schedule.speed_m_s) / (1 - c.schedule.ramp_time_fraction / 2);
+  if (presses_hot(c)) e.pressing_time_s = hot_pressing_time(e.pressing_time_s, panel);
   e.steps = std::ceil(e.pressing_time_s / e.time_step_s);
 
   const auto n = static_cast<double>(e.particles);
@@ -124,7 +139,8 @@ Estimate estimate(const Case& c, const Panel<2>& panel) {
   const double speed_up = 1 + kSpeedUpPerThread * (thread_count(c) - 1);
   e.memory_bytes = memory_bytes(n);
   e.disk_bytes = n * kStoredBytesPerParticle * (states + 2) + kFrameBytes + 1e7;
-  e.press_s = n * e.steps * kNsPerParticleStep * 1e-9 / speed_up;
+  const double ns = kNsPerParticleStep * (presses_hot(c) ? kHotCost : 1);
+  e.press_s = n * e.steps * ns * 1e-9 / speed_up;
   const double element_count = elements(c, panel);
   e.test_s = states * static_cast<double>(c.test.compliance_t_mm_per_MPa.size()) * element_count *
              kSolveSecondsPerElement * std::pow(element_count / kElementsAtReference, kSolveExponent - 1);

@@ -21,13 +21,14 @@ constexpr double kSpeedUp = .05;         // of the way in which the platens gain
 constexpr double kSlowDown = .05;        // and lose it: a sudden stop sends a wave through the mat
 constexpr double kSlowest = .005;        // of the speed
 constexpr double kLongestClosing = .01;  // of the gap in one exchange
-constexpr double kSettling = 3;          // transits of a wave through the mat, in which a mat settles. Judgement
+constexpr double kSettling = 2;          // transits of a wave through the mat, in which a mat settles. Judgement
 constexpr double kDamping = .6;          // of the thickness mode's angular frequency; of critical damping .3
 constexpr int kDampedSteps = 4;          // steps between dampings
 constexpr double kRead = .5;             // part of the settling, its end, from which forces are read
-constexpr double kServoTransits = 4, kServoModulus = 300;  // time and MPa of the control of pressure
-constexpr double kServoSpeed = .25;                        // of the platens' speed, at most, under control of pressure
-constexpr double kDuePressure = .1;  // of the stress held: its change for which the mat is settled anew
+constexpr double kServoTransits = 1.5, kServoModulus = 300;  // time and MPa of the control of pressure
+constexpr double kFiltered = .3;     // transits over which the pressure that it sees is averaged
+constexpr double kServoSpeed = .25;  // of the platens' speed, at most, under control of pressure
+constexpr double kDuePressure = .2;  // of the stress held: its change for which the mat is settled anew
 constexpr double kJudged = .5;       // of the largest stress: from where the mat bears it a pressing is judged
 
 double change(const std::vector<double>& before, const std::vector<double>& now) {
@@ -287,7 +288,7 @@ void StrandMechanics::settle(const Move& move, double seconds) {
     }
     step(closing, seconds / time);
     now_ = .5 * (engine_->top_force() + engine_->bottom_force()) / area;
-    filtered_ += (now_ - filtered_) * std::min(1., dt / wave);
+    filtered_ += (now_ - filtered_) * std::min(1., dt / (kFiltered * wave));
     if (n % kDampedSteps == 0) engine_->scale_velocities(std::exp(-damping * kDampedSteps * dt));
     if (passed > (1 - kRead) * time) {
       sum_s_ += dt;

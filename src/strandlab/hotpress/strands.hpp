@@ -22,7 +22,7 @@ struct StrandPress {
   wood::RateEffect rate;
   Softening softening;
   int cells = 40;                     // of equal mass, as the transfer has them
-  double due = .1;                    // change of a layer's ln factor for which a mat at rest is settled anew
+  double due = .15;                   // change of a layer's ln factor for which a mat at rest is settled anew
   std::function<void()> before_step;  // what it throws ends the pressing
 };
 
@@ -84,7 +84,7 @@ class StrandMechanics final : public MatMechanics {
   double held_ = 0;      // Pa, when the platens were last moved by position
   bool by_pressure_ = false;
   bool limited_ = false, at_stop_ = false;
-  double now_ = 0, filtered_ = 0;  // MPa, of the last step under control and its mean over a transit
+  double now_ = 0, filtered_ = 0;  // MPa, of the last step under control and its mean over a part of a transit
 
   double sum_s_ = 0, sum_top_ = 0, sum_bottom_ = 0;  // impulses of the part of an exchange that is read
   std::vector<press::Record> records_;
