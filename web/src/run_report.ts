@@ -67,7 +67,7 @@ function header(run: Run, film: {strands: number}): HTMLElement {
   const most = c.compactions[c.compactions.length - 1] ?? 0;
   const words = [
     run.mat ? `A mat of ${strands} strands in ${rows} rows, ${Number(run.mat.length_mm.toFixed(3))} mm long` : 'A mat that is not formed yet',
-    most > 0 ? `pressed to ${fullStateName(run, most)} at ${c.speed_m_s} m/s` : 'as laid',
+    run.record.hotpress ? `pressed hot to ${fullStateName(run, most)}` : most > 0 ? `pressed to ${fullStateName(run, most)} at ${c.speed_m_s} m/s` : 'as laid',
   ];
   return el('header', {class: 'page-head'},
     el('div', {}, el('p', {class: 'brand'}, 'Strandlab'), el('h1', {}, title(run)), el('p', {class: 'lead'}, `${words.join(', ')}.`)),
