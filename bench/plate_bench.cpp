@@ -25,12 +25,13 @@ int main(int argc, char** argv) {
   const wood::Material poplar;
   const std::vector<StrandKind> kinds{{"surface", poplar, 0}, {"core", poplar, 90}};
   const auto panel = make_panel(
-      mat::read_plate(std::string(STRANDLAB_TEST_DATA "/mats3d/") + name + ".json", {{"surface", 0}, {"core", 90}}), kinds, 1,
-      2);
+      mat::read_plate(std::string(STRANDLAB_TEST_DATA "/mats3d/") + name + ".json", {{"surface", 0}, {"core", 90}}),
+      kinds, 1, 2);
   vtest::PlateOptions options;
   options.element_length_mm = element;
   options.compliance_t_mm_per_MPa = {0, 0.0105, 0.05};
-  options.glued_plates = argc > 3;
+  options.glued_plates = false;
+  if (argc > 3) options.perfect_bond = std::stod(argv[3]);
   const auto size = vtest::size_of_tests(panel, options);
   fmt::print("{}: {} unknowns, about {:.2f} GB\n", name, size.unknowns, size.memory_GB);
   const auto r = vtest::measure(panel, options);

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 
+#include <utility>
+
 extern "C" void openblas_set_num_threads(int);
 extern "C" void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
                        const double* a, const int* lda, const double* beta, double* c, const int* ldc);
@@ -116,17 +118,28 @@ void Cholesky::factorise(const LowerMatrix& matrix) {
 }
 
 std::vector<double> Cholesky::solve(const std::vector<double>& rhs) {
+  return std::move(solve(std::vector<std::vector<double>>{rhs}).front());
+}
+
+std::vector<std::vector<double>> Cholesky::solve(const std::vector<std::vector<double>>& rhs) {
+  const std::size_t size = rhs.front().size();
+  std::vector<double> columns;
+  columns.reserve(size * rhs.size());
+  for (const auto& column : rhs) columns.insert(columns.end(), column.begin(), column.end());
   cholmod_dense b{};
-  b.nrow = b.nzmax = b.d = rhs.size();
-  b.ncol = 1;
-  b.x = const_cast<double*>(rhs.data());
+  b.nrow = b.d = size;
+  b.ncol = rhs.size();
+  b.nzmax = columns.size();
+  b.x = columns.data();
   b.xtype = CHOLMOD_REAL;
   b.dtype = CHOLMOD_DOUBLE;
   auto& i = *impl_;
   cholmod_solve2(CHOLMOD_A, i.factor, &b, nullptr, &i.solution, nullptr, &i.work_y, &i.work_e, &i.common);
   if (i.common.status < CHOLMOD_OK) throw OutOfMemory("the linear solver ran out of memory");
   const auto* values = static_cast<const double*>(i.solution->x);
-  return {values, values + rhs.size()};
+  std::vector<std::vector<double>> solutions;
+  for (std::size_t k = 0; k < rhs.size(); ++k) solutions.emplace_back(values + k * size, values + (k + 1) * size);
+  return solutions;
 }
 
 }  // namespace strandlab::statics

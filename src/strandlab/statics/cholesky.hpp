@@ -40,6 +40,8 @@ class Cholesky {
   // Solution for one right-hand side with the last factor; errors are those of the factor, so refine where it matters.
   // Throws OutOfMemory.
   std::vector<double> solve(const std::vector<double>& rhs);
+  // The same for several at once, which takes less time than one by one and may round differently.
+  std::vector<std::vector<double>> solve(const std::vector<std::vector<double>>& rhs);
 
  private:
   struct Impl;
