@@ -68,7 +68,6 @@ vtest::PlateOptions plate_options(const Case& c) {
   options.elements_through_strand = c.test.elements_through_strand;
   options.element_length_mm = c.test.element_length_mm;
   options.curing = c.test.curing;
-  options.perfect_bond = c.test.perfect_bond;
   return options;
 }
 

@@ -35,7 +35,7 @@ void BondedPanel<Dim>::glue(const glue::Bond& bond, SolveTimes& times) {
   }
   if (cholesky_) return;
   const Stopwatch watch(times.analyse);
-  cholesky_ = std::make_unique<Cholesky>(stiffness_);
+  cholesky_ = std::make_unique<Cholesky>(stiffness_, Dim == 2 ? Ordering::kMinimumDegree : Ordering::kDissection);
 }
 
 template <int Dim>
@@ -59,14 +59,14 @@ double BondedPanel<Dim>::hand_over(Solution<Dim>& s) const {
   double change = 0, largest = std::numeric_limits<double>::min();
   const auto opening = jumps(s);
   for (std::size_t k = 0; k < opening.size(); ++k) {
-    Vec<Dim> more;
-    for (int d = 0; d < Dim; ++d) {
-      const bool normal = d == Dim - 1;
-      more[d] =
-          (normal ? bond_.perfect_n : bond_.perfect_t) ? (normal ? bond_.normal : bond_.tangential) * opening[k][d] : 0;
+    const auto& spring = parts_.springs()[k];
+    Vec<Dim> more = Vec<Dim>::Zero();
+    for (int d = 0; d < Dim - 1; ++d) {
+      if (bond_.perfect_t) more[d] = spring.tangential(bond_) * opening[k][d];
     }
+    if (bond_.perfect_n) more[Dim - 1] = spring.normal(bond_) * opening[k][Dim - 1];
     s.excess[k] += more;
-    const double weight = Dim == 2 ? 1 : parts_.area(k);
+    const double weight = Dim == 2 ? 1 : spring.area;
     change = std::max(change, weight * more.cwiseAbs().maxCoeff());
     largest = std::max(largest, weight * s.excess[k].cwiseAbs().maxCoeff());
   }
@@ -79,9 +79,11 @@ double BondedPanel<Dim>::hand_over(Solution<Dim>& s) const {
 template <int Dim>
 std::vector<Solution<Dim>> BondedPanel<Dim>::respond(const LowerMatrix& matrix, const Supports& supports,
                                                      const std::vector<std::vector<double>>& rhs) {
-  constexpr int kLeastSteps = 2, kMostSteps = 10;
+  constexpr int kLeastSteps = 2, kMostSteps = Dim == 2 ? 10 : 20;
   constexpr double kSettled = Dim == 2 ? 1e-4 : 1e-6;  // tractions (3D: forces) change by less than this of the largest
-  constexpr double kStalled = 0.5;                     // or no longer fall by this from step to step: round-off
+  // Or no longer fall by this from step to step: round-off. The springs of a panel's small glue points are soft and
+  // hand over slowly.
+  constexpr double kStalled = Dim == 2 ? 0.5 : 1;
   std::vector<Solution<Dim>> solutions;
   for (auto& displacement : cholesky_->solve(rhs)) {
     auto& s = solutions.emplace_back(Solution<Dim>{std::move(displacement), {}});

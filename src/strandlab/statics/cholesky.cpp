@@ -93,10 +93,12 @@ struct Cholesky::Impl {
   Impl& operator=(const Impl&) = delete;
 };
 
-Cholesky::Cholesky(const LowerMatrix& matrix) : impl_(std::make_unique<Impl>()) {
+Cholesky::Cholesky(const LowerMatrix& matrix, Ordering ordering) : impl_(std::make_unique<Impl>()) {
   auto a = view(matrix);
-  impl_->common.nmethods = 1;
-  impl_->common.method[0].ordering = CHOLMOD_AMD;
+  auto& common = impl_->common;
+  common.nmethods = 0;
+  if (ordering == Ordering::kDissection) common.method[common.nmethods++].ordering = CHOLMOD_METIS;
+  common.method[common.nmethods++].ordering = CHOLMOD_AMD;
   impl_->factor = cholmod_analyze(&a, &impl_->common);
   if (impl_->factor == nullptr) {
     throw OutOfMemory(fmt::format("the linear solver could not analyse {} unknowns (out of memory)", matrix.size()));

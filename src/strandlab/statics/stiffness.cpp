@@ -137,8 +137,9 @@ template <int Dim>
 double PanelStiffness<Dim>::glue_energy(const std::vector<double>& displacement,
                                         const glue::BondStiffness& glue) const {
   auto tractions = jumps(displacement);
-  for (auto& t : tractions) {
-    for (int d = 0; d < Dim; ++d) t[d] *= d < Dim - 1 ? glue.tangential : glue.normal;
+  for (std::size_t k = 0; k < springs_.size(); ++k) {
+    for (int d = 0; d < Dim; ++d)
+      tractions[k][d] *= d < Dim - 1 ? springs_[k].tangential(glue) : springs_[k].normal(glue);
   }
   return 0.5 * traction_work(tractions, displacement);
 }

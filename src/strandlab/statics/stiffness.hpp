@@ -18,7 +18,7 @@ class PanelStiffness {
   // Stiffness of wood and glue, no supports. The pattern is the same for every glue.
   LowerMatrix with(const glue::BondStiffness& glue) const;
 
-  double area(std::size_t spring) const { return springs_[spring].area; }  // mm^2 (2D: mm)
+  const std::vector<Spring<Dim>>& springs() const { return springs_; }
   // Jumps (tangential, then normal), mm, of every spring.
   std::vector<Vec<Dim>> jumps(const std::vector<double>& displacement) const;
   // Adds the nodal forces (N, 2D: per mm of depth) that hold the springs at these tractions (MPa, as the jumps).

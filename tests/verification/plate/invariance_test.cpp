@@ -90,6 +90,17 @@ TEST(PlateInvariance, AMatUpsideDownHasTheOppositeCoupling) {
          largest_difference(stiffness_of(mat, 0), expected), below(1e-9).because(kRoundOff));
 }
 
+// Contacts of strands at any angle leave glue points of any area along their edges; perfect bonds there do not depend
+// on the penalty that finds their tractions.
+TEST(PlateInvariance, PerfectBondsDoNotDependOnTheirPenalty) {
+  auto o = options(2, {0});
+  const auto panel = panel_of(reference_plate("rot_a"));
+  const auto usual = measure(panel, o).tensors[0].abd;
+  o.perfect_bond *= 10;
+  report("rot_a, 2 mm, 1/D_t = 0, ten times the penalty: stiffness changes by",
+         largest_difference(measure(panel, o).tensors[0].abd, usual), below(1e-4).because("what a bond must keep to"));
+}
+
 // Moduli fall as the glue gets softer, from a perfect bond, which is the limit of stiff ones; the plate is stable.
 TEST(PlateInvariance, SofterGlueMakesASofterPlate) {
   const std::vector<double> compliances{0, 1e-6, 1e-3, 0.0105, 0.05, 1};

@@ -101,15 +101,27 @@ TEST(PlateReference, PlaneEndsOfACutMatNightly) {
 }
 
 // Strands at any angle: a second program of the reference, with lattices of its own and glue at 6 x 6 points a facet.
+// Its bending moduli at 1 mm are 3 % above its own limit.
 TEST(PlateReference, StrandsAtAnyAngleNightly) {
   const auto result = measure(panel_of(reference_plate("rot_a")), options(1, {0.0105, 0.05}));
   for (const auto& [text, compliance] : {std::pair{"0.0105", 0.0105}, {"0.05", 0.05}}) {
-    const auto& limit =
-        reference_moduli()["rot_a"]["moduli"]["own_lattices"][std::string("1/Dt=") + text]["limit_h_to_0"];
-    report(std::string("rot_a, 1 mm, 1/D_t = ") + text + ": E_x, E_y, E_bx, E_by off the second program's limit by",
-           largest_difference_of(result, limit, compliance, kStretch), below(0.02).because(kOtherRule));
-    report(std::string("rot_a, 1 mm, 1/D_t = ") + text + ": G_xy and G_b off the second program's limit by",
-           largest_difference_of(result, limit, compliance, kShear), below(0.03).because(kOtherRule));
+    const auto& second = reference_moduli()["rot_a"]["moduli"]["own_lattices"][std::string("1/Dt=") + text];
+    const std::string name = std::string("rot_a, 1 mm, 1/D_t = ") + text;
+    report(name + ": E_x, E_y, E_bx, E_by against the second program on the same mesh",
+           largest_difference_of(result, second["h=1,nz=2"], compliance, kStretch), below(0.02).because(kOtherRule));
+    report(name + ": G_xy and G_b against the second program on the same mesh",
+           largest_difference_of(result, second["h=1,nz=2"], compliance, kShear), below(0.03).because(kOtherRule));
+    report(
+        name + ": E_x, E_y off the second program's limit by",
+        largest_difference_of(result, second["limit_h_to_0"], compliance, {{"plate_E_x", "E_x"}, {"plate_E_y", "E_y"}}),
+        below(0.02).because(kOtherRule));
+    report(name + ": G_xy off the second program's limit by",
+           largest_difference_of(result, second["limit_h_to_0"], compliance, {{"plate_G_xy", "G_xy"}}),
+           below(0.03).because(kOtherRule));
+    report(name + ": E_bx, E_by off the second program's limit by",
+           largest_difference_of(result, second["limit_h_to_0"], compliance,
+                                 {{"plate_Eb_x", "Eb_x"}, {"plate_Eb_y", "Eb_y"}}),
+           below(0.05).because(kOtherRule));
   }
 }
 
