@@ -178,7 +178,7 @@ TEST(Mesh, StraightensFoldedCorners) {
   EXPECT_EQ(reference.straightened, 0);
   for (const auto& e : mesh.elements) {
     EXPECT_NO_THROW(incompatible_element<2>({mesh.nodes[e[0]], mesh.nodes[e[1]], mesh.nodes[e[2]], mesh.nodes[e[3]]},
-                                               PlaneStiffness::Identity()));
+                                            PlaneStiffness::Identity()));
   }
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     if (reference.nodes[n][0] < 3) continue;

@@ -33,7 +33,7 @@ EndForce end_force(const statics::Mesh<2>& mesh, const statics::StrandMesh<2>& s
 // Nodal forces of a couple of moment 1 N mm: an even axial traction over the end face of the outermost strand on either
 // side that reaches x = length, pulling below and pushing above. Throws InputError if that is one and the same strand.
 std::vector<double> couple_forces(const Connection& connection, const statics::Mesh<2>& mesh) {
-  const statics::StrandMesh<2> *lowest = nullptr, *highest = nullptr;
+  const statics::StrandMesh<2>*lowest = nullptr, *highest = nullptr;
   const auto end_height = [&](const statics::StrandMesh<2>& s) { return mesh.nodes[s.node(s.along(), 0)][1]; };
   for (const auto& strand : mesh.strands) {
     if (!connection.at_right[strand.strand]) continue;

@@ -7,7 +7,8 @@ namespace {
 
 // Solutions of a stretch of 1 mm and of a rotation of 1 rad; the stretch that takes the axial force off the rotation is
 // added to it.
-Modulus end_rotation_modulus(const Model& model, const statics::Solution<2>& stretch, const statics::Solution<2>& rotation) {
+Modulus end_rotation_modulus(const Model& model, const statics::Solution<2>& stretch,
+                             const statics::Solution<2>& rotation) {
   const auto& section = model.section;
   const double q = -right_resultant(section, model.bonded.forces(rotation)).force /
                    right_resultant(section, model.bonded.forces(stretch)).force;
