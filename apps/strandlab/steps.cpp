@@ -5,6 +5,7 @@
 #include "case_arguments.hpp"
 #include "commands.hpp"
 #include "strandlab/run/journey.hpp"
+#include "strandlab/run/plate.hpp"
 #include "terminal.hpp"
 
 namespace strandlab::app {
@@ -37,12 +38,16 @@ void add_press(CLI::App& app) {
 
 void add_test(CLI::App& app) {
   add_step(app, "test", "measure the moduli of the pressed panel: moduli.csv",
-           [](const auto& c, const auto& place, auto& observer) { run::test(c, place, observer); });
+           [](const auto& c, const auto& place, auto& observer) {
+             cases::is_plate(c) ? run::plate(c, place, observer) : void(run::test(c, place, observer));
+           });
 }
 
 void add_run(CLI::App& app) {
   add_step(app, "run", "form, press and test: the whole journey of a panel",
-           [](const auto& c, const auto& place, auto& observer) { run::all(c, place, observer); });
+           [](const auto& c, const auto& place, auto& observer) {
+             cases::is_plate(c) ? run::plate(c, place, observer) : void(run::all(c, place, observer));
+           });
 }
 
 }  // namespace strandlab::app

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "strandlab/case/estimate.hpp"
+#include "strandlab/case/plate.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/core/text.hpp"
@@ -138,6 +139,12 @@ std::vector<StrandKind> kinds_and_materials(const Case& c) {
 mat::Mat make_mat(const Case& c) {
   const auto& place = c.mat_file.empty() ? c.places.rows : c.places.mat_file;
   try {
+    if (is_plate(c)) {
+      throw InputError(
+          fmt::format("{}: a mat in 3D: strandlab run and test measure it as it lies, with press.compactions = [0]; "
+                      "pressing in 3D is not there yet",
+                      c.mat_file));
+    }
     if (!c.mat_file.empty()) return mat::read(c.mat_file, kind_names(c));
     const auto rows = layup(c);
     refuse_too_large(c, rows);

@@ -283,7 +283,7 @@ class Patches {
 
 // Glue points of a strand's top face, by facing strand.
 void append_points(const Patches& patches, std::size_t a, double highest, std::vector<GluePoint<3>>& points) {
-  constexpr double kTouch = 1e-6;  // of a corner's share: round-off, no contact
+  constexpr double kTouch = 1e-9;  // of a corner's share: round-off, no contact
   const auto others = patches.over(a);
   const auto& top = patches.top(a);
   std::vector<std::vector<GluePoint<3>>> by_other(others.size());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <tuple>
 #include <vector>
 
 #include "strandlab/core/types.hpp"
@@ -16,7 +17,8 @@ struct PlanBox {
 struct BoxImage {
   int box = 0;
   std::array<int, 2> image{};
-  auto operator<=>(const BoxImage&) const = default;
+  bool operator==(const BoxImage&) const = default;
+  bool operator<(const BoxImage& other) const { return std::tie(box, image) < std::tie(other.box, other.image); }
 };
 
 class PlanGrid {

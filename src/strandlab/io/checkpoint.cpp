@@ -106,10 +106,12 @@ void visit_press(AnyCheckpoint& checkpoint, const Visit& visit) {
   visit("worst_kinetic", Label{"1", "largest share of kinetic energy so far"}, worst_kinetic);
 }
 
+constexpr const char* kPeriodic = "/panel/periodic";  // of panels in 3D
+
 template <class AnyPanel, class Visit>
 void visit_panel(AnyPanel& panel, const Visit& visit) {
   auto& [length, depth, periodic, initial_thickness, bottom, top, time, strands] = panel;
-  static_cast<void>(std::tie(periodic, strands));  // of panels in 3D, which are in no file; in datasets of their own
+  static_cast<void>(std::tie(periodic, strands));  // of their own
   visit("length_mm", Label{"mm", "length of the window along x"}, length);
   visit("depth_mm", Label{"mm", "width across; 1 for a section"}, depth);
   visit("initial_thickness_mm", Label{"mm", "platen gap of the mat as formed"}, initial_thickness);
@@ -258,6 +260,9 @@ void write_panel_group(Writer& out, const Panel<Dim>& panel) {
   visit_panel(panel, [&](const char* name, const Label& label, double value) {
     write_scalar(out, std::string("/panel/") + name, value, label);
   });
+  if constexpr (Dim == 3) {
+    write_scalar(out, kPeriodic, panel.periodic ? 1.0 : 0.0, {"1", "1 where the window repeats in x and y, else 0"});
+  }
   write_strand_lists(out, panel);
   write_strand_numbers(out, panel);
   write_points(out, panel);
@@ -348,6 +353,11 @@ Panel<Dim> read_panel_group(const Reader& in) {
   visit_panel(panel, [&](const char* name, const Label&, double& value) {
     read_scalar(in, std::string("/panel/") + name, value);
   });
+  if constexpr (Dim == 3) {
+    double periodic = 0;
+    read_scalar(in, kPeriodic, periodic);
+    panel.periodic = periodic != 0;
+  }
   read_strand_lists(in, panel);
   read_strand_numbers(in, panel);
   read_points(in, panel);

@@ -60,6 +60,39 @@ void describe(const StrandKind& kind, std::size_t row, double angle_deg, Strand<
   strand.stiffness_factor = kind.stiffness_factor;
 }
 
+struct Weighed {
+  double volume;  // mm^3 (2D: mm^2)
+  const wood::Material& material;
+};
+
+// Weight of the strands of a mat over an area of the panel (2D: a length); weigh_strand(strand, kind, row) says what
+// one is.
+template <class Mat, class WeighStrand>
+Weight weighed(const Mat& mat, const std::vector<StrandKind>& kinds, double area, const WeighStrand& weigh_strand) {
+  Weight weight;
+  double total = 0;  // kg/m^3 mm^3 (2D: mm^2)
+  const auto add = [](std::vector<WeightShare>& shares, const std::string& name, double mass) {
+    auto share = std::find_if(shares.begin(), shares.end(), [&](const auto& s) { return s.name == name; });
+    if (share == shares.end()) share = shares.insert(shares.end(), {name, 0});
+    share->fraction += mass;
+  };
+  for (std::size_t row = 0; row < mat.layers.size(); ++row) {
+    const auto& kind = find_kind(kinds, mat.layers[row].role, row);
+    for (const auto& piece : mat.layers[row].strands) {
+      const auto [volume, material] = weigh_strand(piece, kind, row);
+      const double mass = volume * material.density_kg_m3;
+      add(weight.by_kind, kind.name, mass);
+      add(weight.by_material, material.name, mass);
+      total += mass;
+    }
+  }
+  for (auto* shares : {&weight.by_kind, &weight.by_material}) {
+    for (auto& share : *shares) share.fraction /= total;
+  }
+  weight.kg_per_m2 = 1e-3 * total / area;
+  return weight;
+}
+
 }  // namespace
 
 const StrandKind& find_kind(const std::vector<StrandKind>& kinds, const std::string& role, std::size_t layer) {
@@ -142,28 +175,18 @@ Panel<3> make_panel(const mat::PlateMat& mat, const std::vector<StrandKind>& kin
 }
 
 Weight weigh(const mat::Mat& mat, const std::vector<StrandKind>& kinds) {
-  Weight weight;
-  double total = 0;  // kg/m^3 mm^2
-  const auto add = [](std::vector<WeightShare>& shares, const std::string& name, double mass) {
-    auto share = std::find_if(shares.begin(), shares.end(), [&](const auto& s) { return s.name == name; });
-    if (share == shares.end()) share = shares.insert(shares.end(), {name, 0});
-    share->fraction += mass;
-  };
-  for (std::size_t row = 0; row < mat.layers.size(); ++row) {
-    const auto& kind = find_kind(kinds, mat.layers[row].role, row);
-    for (const auto& piece : mat.layers[row].strands) {
-      const auto& material = find_material(kind, piece, kinds, row);
-      const double mass = (piece.x1_mm - piece.x0_mm) * mat.thickness_of(row) * material.density_kg_m3;
-      add(weight.by_kind, kind.name, mass);
-      add(weight.by_material, material.name, mass);
-      total += mass;
-    }
-  }
-  for (auto* shares : {&weight.by_kind, &weight.by_material}) {
-    for (auto& share : *shares) share.fraction /= total;
-  }
-  weight.kg_per_m2 = 1e-3 * total / mat.length_mm;
-  return weight;
+  return weighed(mat, kinds, mat.length_mm, [&](const mat::Strand& piece, const StrandKind& kind, std::size_t row) {
+    return Weighed{(piece.x1_mm - piece.x0_mm) * mat.thickness_of(row), find_material(kind, piece, kinds, row)};
+  });
+}
+
+Weight weigh(const mat::PlateMat& mat, const std::vector<StrandKind>& kinds) {
+  const double window = mat.length_mm * mat.width_mm;
+  return weighed(mat, kinds, window, [&](const mat::PlateStrand& piece, const StrandKind& kind, std::size_t row) {
+    const auto number = static_cast<std::size_t>(&piece - mat.layers[row].strands.data());
+    return Weighed{piece.length_mm * piece.width_mm * mat.thickness_of(row),
+                   find_material(kind, piece, kinds, row, number)};
+  });
 }
 
 }  // namespace strandlab

@@ -104,8 +104,10 @@ struct Weight {
   double kg_per_m2 = 0;                           // of panel area
   std::vector<WeightShare> by_kind, by_material;  // from the bottom up; each sums to 1
 };
-// Exact for the mat as it lies: sums of length x thickness x density over its strands. Throws as make_panel().
+// Exact for the mat as it lies: sums of length x thickness (x width) x density over its strands. Throws as
+// make_panel().
 Weight weigh(const mat::Mat& mat, const std::vector<StrandKind>& kinds);
+Weight weigh(const mat::PlateMat& mat, const std::vector<StrandKind>& kinds);
 
 // Thickness (mm, as formed) of the panel's thinnest strand. The panel must have one.
 template <int Dim>

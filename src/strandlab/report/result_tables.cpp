@@ -1,8 +1,11 @@
 #include "strandlab/report/result_tables.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace strandlab::report {
@@ -33,6 +36,22 @@ files::CsvTable moduli_table(const std::vector<PanelModulus>& moduli) {
   for (const auto& m : moduli) {
     table.add_row({m.compaction, m.test, m.compliance_t_mm_per_MPa, m.modulus_MPa, m.reaction_modulus_MPa,
                    m.shear_free_modulus_MPa.value_or(std::nan("")), m.density_kg_m3});
+  }
+  return table;
+}
+
+files::CsvTable plate_table(double compaction, const vtest::PlateResult& result) {
+  std::vector<std::string> columns{"compaction", "compliance_t_mm_per_MPa"};
+  for (int i = 1; i <= 6; ++i) {
+    for (int j = 1; j <= 6; ++j) columns.push_back(fmt::format("ABD_{}{}", i, j));
+  }
+  files::CsvTable table(columns);
+  for (const auto& tensor : result.tensors) {
+    std::vector<files::CsvCell> row{compaction, tensor.compliance_t_mm_per_MPa};
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j < 6; ++j) row.emplace_back(tensor.abd(i, j));
+    }
+    table.add_row(std::move(row));
   }
   return table;
 }

@@ -55,7 +55,7 @@ std::vector<std::string> results_of(cases::Step step) {
   if (step == cases::Step::kPress)
     add({"hotpress.csv", "transfer_profiles.csv", "checkpoint.h5", "checkpoint.previous.h5", "panels", "frames",
          "paraview", "pictures"});
-  if (step == cases::Step::kTest) add({"plots", "glue_lines"});
+  if (step == cases::Step::kTest) add({"abd.csv", "plots", "glue_lines"});
   return names;
 }
 

@@ -137,17 +137,40 @@ TestedState state_from(const Json& json) {
   return state;
 }
 
-}  // namespace
-
-void begin_record(Json& record, const Formed& formed) {
+// What is the same for every mat.
+void begin(Json& record, const cases::Case& c) {
   record["strandlab"] = version();
   record["git"] = git_commit();
   if (!record.contains("date")) record["date"] = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
-  record["seed"] = formed.c.seed;
+  record["seed"] = c.seed;
   record["machine"] = machine();
+  record["derived_constants"] = cases::derived_constants(c);
+}
+
+Json rows_of(const statics::PlateStiffness& m) {
+  auto rows = Json::array();
+  for (int i = 0; i < 6; ++i) {
+    auto& row = rows.emplace_back(Json::array());
+    for (int j = 0; j < 6; ++j) row.push_back(m(i, j));
+  }
+  return rows;
+}
+
+}  // namespace
+
+void begin_record(Json& record, const Formed& formed) {
+  begin(record, formed.c);
   record["mat"] = to_json(cases::weigh(formed.c, formed.mat));
   record["states"] = states_of(formed);
-  record["derived_constants"] = cases::derived_constants(formed.c);
+}
+
+void begin_record(Json& record, const FormedPlate& formed) {
+  begin(record, formed.c);
+  const auto weight = cases::weigh(formed.c, formed.mat);
+  record["mat"] = to_json(weight);
+  record["states"] = Json::array({{{"compaction", 0.0},
+                                   {"thickness_mm", formed.mat.thickness_mm()},
+                                   {"density_kg_m3", 1e3 * weight.kg_per_m2 / formed.mat.thickness_mm()}}});
 }
 
 Json summary(const press::Outcome<2>& outcome, int threads) {
@@ -185,6 +208,30 @@ Json to_json(const Tested& tested) {
   auto list = Json::array();
   for (const auto& state : tested) list.push_back(to_json(state));
   return list;
+}
+
+Json to_json(const vtest::PlateResult& r) {
+  auto moduli = Json::array(), tensors = Json::array();
+  for (const auto& m : r.moduli) {
+    moduli.push_back({{"test", m.test},
+                      {"compliance_t_mm_per_MPa", m.compliance_t_mm_per_MPa},
+                      {"modulus_MPa", m.modulus_MPa},
+                      {"reaction_modulus_MPa", m.reaction_modulus_MPa}});
+  }
+  for (const auto& t : r.tensors)
+    tensors.push_back({{"compliance_t_mm_per_MPa", t.compliance_t_mm_per_MPa}, {"ABD", rows_of(t.abd)}});
+  return {{"moduli", moduli},
+          {"plate_stiffness", tensors},
+          {"strands", r.strands},
+          {"floating_strands", r.floating_strands},
+          {"glued_area_mm2", r.glued_area_mm2},
+          {"glued_fraction", r.glued_fraction},
+          {"unknowns", r.unknowns},
+          {"assemble_s", r.assemble_s},
+          {"analyse_s", r.analyse_s},
+          {"factor_s", r.factor_s},
+          {"solve_s", r.solve_s},
+          {"warnings", r.warnings}};
 }
 
 Tested tested_from_json(const Json& states) {

@@ -7,6 +7,7 @@
 #include "strandlab/panel/panel.hpp"
 #include "strandlab/profile/profile.hpp"
 #include "strandlab/run/form.hpp"
+#include "strandlab/run/plate.hpp"
 #include "strandlab/run/press.hpp"
 #include "strandlab/run/test.hpp"
 
@@ -15,12 +16,17 @@ namespace strandlab::run {
 // What stands in run.json before any step: program, seed, machine, the mat's weight by kind and material. `record` is
 // that of the folder; a date that it has stays.
 void begin_record(nlohmann::json& record, const Formed& formed);
+// The same of a plate.
+void begin_record(nlohmann::json& record, const FormedPlate& formed);
 
 // Speed, time, warnings of a pressing.
 nlohmann::json summary(const press::Outcome<2>& outcome, int threads);
 
 // One object per compaction.
 nlohmann::json to_json(const std::vector<profile::Profile>& profiles);
+
+// Moduli, plate stiffness and counts of a plate's tests; wall_s beside them.
+nlohmann::json to_json(const vtest::PlateResult& result);
 
 // One object per compaction; what tested_from_json() reads gives the same bits again.
 nlohmann::json to_json(const Tested& tested);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "strandlab/core/stopwatch.hpp"
@@ -36,7 +37,7 @@ void BondedPanel<Dim>::glue(const glue::Bond& bond, SolveTimes& times) {
   }
   if (cholesky_) return;
   const Stopwatch watch(times.analyse);
-  cholesky_ = std::make_unique<Cholesky>(stiffness_);
+  cholesky_ = std::make_unique<Cholesky>(stiffness_, Dim == 2 ? Ordering::kMinimumDegree : Ordering::kDissection);
 }
 
 template <int Dim>
@@ -53,56 +54,77 @@ std::vector<double> BondedPanel<Dim>::forces(const Solution<Dim>& s) const {
 }
 
 // Hands the tractions of perfect bonds' penalty springs over to the excess; returns the largest of them, relative to
-// the largest excess.
+// the largest excess: of a panel the largest force, since the corners of its contacts leave points of any area, whose
+// tractions settle late and matter little.
 template <int Dim>
 double BondedPanel<Dim>::hand_over(Solution<Dim>& s) const {
   double change = 0, largest = std::numeric_limits<double>::min();
   const auto opening = jumps(s);
   for (std::size_t k = 0; k < opening.size(); ++k) {
-    Vec<Dim> more;
-    for (int d = 0; d < Dim; ++d) {
-      const auto& bond = bonds_[k];
-      const bool normal = d == Dim - 1;
-      more[d] =
-          (normal ? bond.perfect_n : bond.perfect_t) ? (normal ? bond.normal : bond.tangential) * opening[k][d] : 0;
+    const auto& spring = parts_.springs()[k];
+    const auto& bond = bonds_[k];
+    Vec<Dim> more = Vec<Dim>::Zero();
+    for (int d = 0; d < Dim - 1; ++d) {
+      if (bond.perfect_t) more[d] = spring.tangential(bond) * opening[k][d];
     }
+    if (bond.perfect_n) more[Dim - 1] = spring.normal(bond) * opening[k][Dim - 1];
     s.excess[k] += more;
-    change = std::max(change, more.cwiseAbs().maxCoeff());
-    largest = std::max(largest, s.excess[k].cwiseAbs().maxCoeff());
+    const double weight = Dim == 2 ? 1 : spring.area;
+    change = std::max(change, weight * more.cwiseAbs().maxCoeff());
+    largest = std::max(largest, weight * s.excess[k].cwiseAbs().maxCoeff());
   }
   return change / largest;
 }
 
-// Solves one load case by the method of multipliers (Hestenes, J. Optim. Theory Appl. 4 (1969) 303): what a perfect
+// Solves load cases by the method of multipliers (Hestenes, J. Optim. Theory Appl. 4 (1969) 303): what a perfect
 // bond's penalty spring carries is handed over to its traction until the spring is idle, so that the penalty leaves no
 // trace; each step refines the linear solution too. One factor serves all.
 template <int Dim>
-Solution<Dim> BondedPanel<Dim>::respond(const LowerMatrix& matrix, const Supports& supports,
-                                        const std::vector<double>& rhs) {
-  constexpr int kLeastSteps = 2, kMostSteps = 10;
-  constexpr double kSettled = 1e-4;  // tractions change by less than this of the largest
-  constexpr double kStalled = 0.5;   // or no longer fall by this from step to step: round-off
-  Solution<Dim> s{cholesky_->solve(rhs), {}};
-  s.excess.assign(jumps(s).size(), Vec<Dim>::Zero());
-  double previous = 1;
-  for (int step = 1; step <= kMostSteps; ++step) {
-    const double change = hand_over(s);
-    std::vector<double> held(rhs.size(), 0.0);
-    parts_.add_traction_forces(s.excess, held);
-    auto residual = multiply(matrix, s.displacement);
-    for (std::size_t i = 0; i < held.size(); ++i)
-      residual[i] = rhs[i] - residual[i] - (supports.fixed[i] ? 0.0 : held[i]);
-    const auto correction = cholesky_->solve(residual);
-    for (std::size_t i = 0; i < held.size(); ++i) s.displacement[i] += correction[i];
-    if (step >= kLeastSteps && (change < kSettled || change > kStalled * previous)) break;
-    previous = change;
+std::vector<Solution<Dim>> BondedPanel<Dim>::respond(const LowerMatrix& matrix, const Supports& supports,
+                                                     const std::vector<std::vector<double>>& rhs) {
+  constexpr int kLeastSteps = 2, kMostSteps = Dim == 2 ? 10 : 20;
+  constexpr double kSettled = Dim == 2 ? 1e-4 : 1e-6;  // tractions (3D: forces) change by less than this of the largest
+  // Or no longer fall by this from step to step: round-off. The springs of a panel's small glue points are soft and
+  // hand over slowly.
+  constexpr double kStalled = Dim == 2 ? 0.5 : 1;
+  std::vector<Solution<Dim>> solutions;
+  for (auto& displacement : cholesky_->solve(rhs)) {
+    auto& s = solutions.emplace_back(Solution<Dim>{std::move(displacement), {}});
+    s.excess.assign(jumps(s).size(), Vec<Dim>::Zero());
   }
-  return s;
+  std::vector<double> previous(rhs.size(), 1.0);
+  std::vector<std::size_t> open(rhs.size());  // load cases that have not settled
+  std::iota(open.begin(), open.end(), 0);
+  for (int step = 1; step <= kMostSteps && !open.empty(); ++step) {
+    std::vector<std::vector<double>> residuals;
+    std::vector<std::size_t> still_open;
+    for (const auto k : open) {
+      auto& s = solutions[k];
+      const double change = hand_over(s);
+      std::vector<double> held(rhs[k].size(), 0.0);
+      parts_.add_traction_forces(s.excess, held);
+      auto& residual = residuals.emplace_back(multiply(matrix, s.displacement));
+      for (std::size_t i = 0; i < held.size(); ++i)
+        residual[i] = rhs[k][i] - residual[i] - (supports.fixed[i] ? 0.0 : held[i]);
+      const bool settled = step >= kLeastSteps && (change < kSettled || change > kStalled * previous[k]);
+      if (!settled) still_open.push_back(k);
+      previous[k] = change;
+    }
+    const auto corrections = cholesky_->solve(residuals);
+    for (std::size_t n = 0; n < open.size(); ++n) {
+      auto& u = solutions[open[n]].displacement;
+      for (std::size_t i = 0; i < u.size(); ++i) u[i] += corrections[n][i];
+    }
+    open = std::move(still_open);
+  }
+  return solutions;
 }
 
 template <int Dim>
 std::vector<Solution<Dim>> BondedPanel<Dim>::solve(const Supports& supports, const std::vector<LoadCase>& loads,
                                                    SolveTimes& times, const std::function<void()>& before_solve) {
+  // Of a section one by one, whose bits do not depend on what else is asked; of a panel all at once.
+  const std::size_t together = Dim == 2 ? 1 : loads.size();
   if (before_solve) before_solve();
   LowerMatrix matrix;
   {
@@ -112,10 +134,12 @@ std::vector<Solution<Dim>> BondedPanel<Dim>::solve(const Supports& supports, con
   }
   const Stopwatch watch(times.solve);
   std::vector<Solution<Dim>> solutions;
-  for (std::size_t k = 0; k < loads.size(); ++k) {
+  for (std::size_t k = 0; k < loads.size(); k += together) {
     if (k > 0 && before_solve) before_solve();
-    const auto rhs = right_hand_side(stiffness_, supports, loads[k].forces, loads[k].given);
-    solutions.push_back(respond(matrix, supports, rhs));
+    std::vector<std::vector<double>> rhs;
+    for (std::size_t n = k; n < k + together; ++n)
+      rhs.push_back(right_hand_side(stiffness_, supports, loads[n].forces, loads[n].given));
+    for (auto& solution : respond(matrix, supports, rhs)) solutions.push_back(std::move(solution));
   }
   return solutions;
 }

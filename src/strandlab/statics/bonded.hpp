@@ -60,7 +60,8 @@ class BondedPanel {
 
  private:
   double hand_over(Solution<Dim>& s) const;
-  Solution<Dim> respond(const LowerMatrix& matrix, const Supports& supports, const std::vector<double>& rhs);
+  std::vector<Solution<Dim>> respond(const LowerMatrix& matrix, const Supports& supports,
+                                     const std::vector<std::vector<double>>& rhs);
 
   PanelStiffness<Dim> parts_;
   double penalty_;

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 
+#include <utility>
+
 extern "C" void openblas_set_num_threads(int);
 extern "C" void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
                        const double* a, const int* lda, const double* beta, double* c, const int* ldc);
@@ -91,10 +93,12 @@ struct Cholesky::Impl {
   Impl& operator=(const Impl&) = delete;
 };
 
-Cholesky::Cholesky(const LowerMatrix& matrix) : impl_(std::make_unique<Impl>()) {
+Cholesky::Cholesky(const LowerMatrix& matrix, Ordering ordering) : impl_(std::make_unique<Impl>()) {
   auto a = view(matrix);
-  impl_->common.nmethods = 1;
-  impl_->common.method[0].ordering = CHOLMOD_AMD;
+  auto& common = impl_->common;
+  common.nmethods = 0;
+  if (ordering == Ordering::kDissection) common.method[common.nmethods++].ordering = CHOLMOD_METIS;
+  common.method[common.nmethods++].ordering = CHOLMOD_AMD;
   impl_->factor = cholmod_analyze(&a, &impl_->common);
   if (impl_->factor == nullptr) {
     throw OutOfMemory(fmt::format("the linear solver could not analyse {} unknowns (out of memory)", matrix.size()));
@@ -116,17 +120,28 @@ void Cholesky::factorise(const LowerMatrix& matrix) {
 }
 
 std::vector<double> Cholesky::solve(const std::vector<double>& rhs) {
+  return std::move(solve(std::vector<std::vector<double>>{rhs}).front());
+}
+
+std::vector<std::vector<double>> Cholesky::solve(const std::vector<std::vector<double>>& rhs) {
+  const std::size_t size = rhs.front().size();
+  std::vector<double> columns;
+  columns.reserve(size * rhs.size());
+  for (const auto& column : rhs) columns.insert(columns.end(), column.begin(), column.end());
   cholmod_dense b{};
-  b.nrow = b.nzmax = b.d = rhs.size();
-  b.ncol = 1;
-  b.x = const_cast<double*>(rhs.data());
+  b.nrow = b.d = size;
+  b.ncol = rhs.size();
+  b.nzmax = columns.size();
+  b.x = columns.data();
   b.xtype = CHOLMOD_REAL;
   b.dtype = CHOLMOD_DOUBLE;
   auto& i = *impl_;
   cholmod_solve2(CHOLMOD_A, i.factor, &b, nullptr, &i.solution, nullptr, &i.work_y, &i.work_e, &i.common);
   if (i.common.status < CHOLMOD_OK) throw OutOfMemory("the linear solver ran out of memory");
   const auto* values = static_cast<const double*>(i.solution->x);
-  return {values, values + rhs.size()};
+  std::vector<std::vector<double>> solutions;
+  for (std::size_t k = 0; k < rhs.size(); ++k) solutions.emplace_back(values + k * size, values + (k + 1) * size);
+  return solutions;
 }
 
 }  // namespace strandlab::statics

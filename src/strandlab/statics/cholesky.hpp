@@ -24,11 +24,15 @@ struct OutOfMemory : RunError {
   using RunError::RunError;
 };
 
+// How unknowns are ordered for a sparse factor: by minimum degree (AMD), or by nested dissection (METIS, or AMD where
+// that is the better), which leaves less than half of the work in three dimensions.
+enum class Ordering { kMinimumDegree, kDissection };
+
 class Cholesky {
  public:
   // Orders and analyses the pattern of `matrix`. Pins OpenBLAS to one thread: fronts are too small to share. Throws
   // OutOfMemory.
-  explicit Cholesky(const LowerMatrix& matrix);
+  explicit Cholesky(const LowerMatrix& matrix, Ordering ordering = Ordering::kMinimumDegree);
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;
@@ -40,6 +44,8 @@ class Cholesky {
   // Solution for one right-hand side with the last factor; errors are those of the factor, so refine where it matters.
   // Throws OutOfMemory.
   std::vector<double> solve(const std::vector<double>& rhs);
+  // The same for several at once, which takes less time than one by one and may round differently.
+  std::vector<std::vector<double>> solve(const std::vector<std::vector<double>>& rhs);
 
  private:
   struct Impl;

@@ -72,9 +72,8 @@ void for_each_gauss_point(const Eigen::Matrix<double, kCorners<Dim>, Dim>& x, co
     const Tensor<Dim> jacobian = along_natural * x;
     const double det = jacobian.determinant();
     if (!(det > 0)) {
-      const auto place = fmt::format("x = {:.3f} mm, y = {:.3f} mm", x.col(0).mean(), x.col(1).mean());
-      throw RunError("inverted element at " + place +
-                     (Dim == 2 ? "" : fmt::format(", z = {:.3f} mm", x.col(Dim - 1).mean())));
+      throw RunError(fmt::format("inverted element at x = {:.3f} mm, y = {:.3f} mm{}", x.col(0).mean(), x.col(1).mean(),
+                                 Dim == 2 ? "" : fmt::format(", z = {:.3f} mm", x.col(Dim - 1).mean())));
     }
     visit(r, Gradients<Dim>(jacobian.inverse() * along_natural), det);
   }

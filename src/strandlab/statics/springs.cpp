@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -90,10 +91,15 @@ std::array<Vec<3>, 4> surface_gradients(const Mesh<3>& mesh, const FacetNodes& f
   return gradients;
 }
 
+constexpr double kLeastShare = 0.1;  // of an element's area, as which a perfect bond is stiff
+
 Spring<3> make_spring(const Mesh<3>& mesh, const glue::GluePoint<3>& point) {
   Spring<3> spring;
   spring.area = point.area;
   spring.quality = point.quality;
+  const auto& part =
+      mesh.strands[static_cast<std::size_t>(mesh.mesh_of_strand[static_cast<std::size_t>(point.a.strand)])];
+  spring.stiffened = std::max(1.0, kLeastShare * part.elements.spacing[0] * part.elements.spacing[1] / point.area);
   const Vec<3>& n = point.normal;
   const Vec<3> along = n.cross(std::abs(n[0]) < 0.5 ? Vec<3>::UnitX() : Vec<3>::UnitY()).normalized();
   const std::array<Vec<3>, 3> direction{along, n.cross(along), n};

@@ -18,6 +18,12 @@ struct Spring {
   std::array<ElementDofs<Dim>, Dim> jump;  // along the tangents, then the normal
   double area = 0;                         // mm (2D) or mm^2
   double quality = 1;                      // of the bond (glue/bond.hpp)
+  double stiffened = 1;                    // penalty of a perfect bond here over that of its area
+
+  double tangential(const glue::BondStiffness& glue) const {
+    return glue.tangential * (glue.perfect_t ? stiffened : 1);
+  }
+  double normal(const glue::BondStiffness& glue) const { return glue.normal * (glue.perfect_n ? stiffened : 1); }
 };
 
 // Springs of the glue points. The rotation is that of the two face segments; at the corner of an end plane (at_end
@@ -27,15 +33,18 @@ std::vector<Spring<2>> make_springs(const Mesh<2>& mesh, const std::vector<glue:
                                     const std::vector<bool>& at_end);
 
 // The same on a panel; the rotation is that of the normals of the two facets. Displacements may be those beyond a
-// plate strain: the plate strain itself moves both sides by what it does in the middle of the glue line.
+// plate strain: the plate strain itself moves both sides by what it does in the middle of the glue line. Perfect bonds
+// of points at the edges of contacts, which have little area, are as stiff as those of a tenth of an element: else they
+// would take their share late, and moduli would depend on the penalty.
 std::vector<Spring<3>> make_springs(const Mesh<3>& mesh, const std::vector<glue::GluePoint<3>>& points);
 
 // Stiffness (N/mm, 2D: per mm of depth) of a spring in its dofs.
 template <int Dim>
 ElementStiffness<Dim> spring_stiffness(const Spring<Dim>& spring, const glue::BondStiffness& glue) {
-  ElementStiffness<Dim> k = glue.tangential * spring.jump[0] * spring.jump[0].transpose();
-  for (int d = 1; d < Dim - 1; ++d) k += glue.tangential * spring.jump[d] * spring.jump[d].transpose();
-  k += glue.normal * spring.jump[Dim - 1] * spring.jump[Dim - 1].transpose();
+  const double tangential = spring.tangential(glue), normal = spring.normal(glue);
+  ElementStiffness<Dim> k = tangential * spring.jump[0] * spring.jump[0].transpose();
+  for (int d = 1; d < Dim - 1; ++d) k += tangential * spring.jump[d] * spring.jump[d].transpose();
+  k += normal * spring.jump[Dim - 1] * spring.jump[Dim - 1].transpose();
   return spring.area * k;
 }
 

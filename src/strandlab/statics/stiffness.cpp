@@ -139,7 +139,8 @@ double PanelStiffness<Dim>::glue_energy(const std::vector<double>& displacement,
                                         const std::vector<glue::BondStiffness>& bonds) const {
   auto tractions = jumps(displacement);
   for (std::size_t k = 0; k < springs_.size(); ++k) {
-    for (int d = 0; d < Dim; ++d) tractions[k][d] *= d < Dim - 1 ? bonds[k].tangential : bonds[k].normal;
+    for (int d = 0; d < Dim - 1; ++d) tractions[k][d] *= springs_[k].tangential(bonds[k]);
+    tractions[k][Dim - 1] *= springs_[k].normal(bonds[k]);
   }
   return 0.5 * traction_work(tractions, displacement);
 }

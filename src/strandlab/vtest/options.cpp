@@ -32,6 +32,9 @@ std::vector<Declaration<Options>> test_options() {
   return {std::move(kinds),
           declare("elements_through_strand", "", {.lo = 1, .hi = kMostElements},
                   "finite elements through the thickness of a strand", &Options::elements_through_strand),
+          declare("element_length_mm", "mm", {.lo = 0.05, .hi = 100},
+                  "length of finite elements along and across strands, for mat files in 3D (docs/panels3d.md)",
+                  &Options::element_length_mm),
           declare("span_to_thickness", "", {.lo = 8, .hi = 200},
                   "span of 3- and 4-point bending over the panel's thickness: 20 in EN 310, 24 in ASTM D1037",
                   &Options::span_to_thickness)};

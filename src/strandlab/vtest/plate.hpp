@@ -19,7 +19,7 @@ struct PlateOptions {
   double element_length_mm = 1;  // along and across strands, as formed
   glue::CuringOptions curing;    // point_spacing_mm = 0: as the elements
   double perfect_bond =
-      100;  // penalty that finds a perfect bond's tractions, in units of wood stiffness / element length
+      1000;  // penalty that finds a perfect bond's tractions, in units of wood stiffness / element length
   bool glued_plates = true;  // of periodic panels: also between plates
 };
 

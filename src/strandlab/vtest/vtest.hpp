@@ -30,6 +30,7 @@ struct Options {
   std::vector<double> compliance_t_mm_per_MPa{0.0};  // 1/D_t of the glue lines (glue/bond.hpp)
   double compliance_n_mm_per_MPa = 0;                // 1/D_n
   int elements_through_strand = 3;
+  double element_length_mm = 1;   // of plates (plate.hpp); in a section elements are as long as they are thick
   glue::CuringOptions curing;     // point_spacing_mm = 0: as the elements
   double span_to_thickness = 20;  // of 3- and 4-point bending: 20 in EN 310, 24 in ASTM D1037
   double pad_to_thickness = 0.5;  // width of their supports and loads

@@ -92,6 +92,7 @@ Checkpoint<Dim> any_checkpoint() {
   if constexpr (Dim == 2) {
     c.panel.strands = {any_strand<2>(any, 0, {40, 6}), any_strand<2>(any, 1, {7, 3})};
   } else {
+    c.panel.periodic = true;
     c.panel.strands = {any_strand<3>(any, 0, {9, 4, 3}), any_strand<3>(any, 2, {5, 2, 3})};
   }
   c.engine = {123456789012LL, any(),          any(),
@@ -147,6 +148,7 @@ class Bits {
     for (const double value : {p.length_mm, p.depth_mm, p.initial_thickness_mm, p.bottom_mm, p.top_mm, p.time_s}) {
       add(value);
     }
+    add(p.periodic ? 1.0 : 0.0);
     for (const auto& strand : p.strands) add(strand);
   }
   bool operator==(const Bits&) const = default;

@@ -253,5 +253,63 @@ TEST(Grain, FollowsTheMaterialLine) {
   EXPECT_NEAR(grain<2>(F).norm(), 1, 1e-15);
 }
 
+mat::PlateMat plate() {
+  mat::PlateMat mat;
+  mat.length_mm = 30;
+  mat.width_mm = 20;
+  mat.layer_thickness_mm = 0.8;
+  for (const char* role : {"surface", "core"}) {
+    auto& layer = mat.layers.emplace_back();
+    layer.role = role;
+    auto& strand = layer.strands.emplace_back();
+    strand.cx_mm = 3;
+    strand.cy_mm = 4;
+    strand.length_mm = 13.3;
+    strand.width_mm = 5.2;
+  }
+  mat.layers[1].thickness_mm = 1.6;
+  return mat;
+}
+
+// A strand of a plate is a whole lattice, turned about its middle: points go on beyond the window's edge, F is the turn
+// and the wood is that of the grain along the lattice.
+TEST(MakePanel, TurnsTheStrandsOfAPlate) {
+  const auto panel = make_panel(plate(), kinds(), 1, 2);
+  EXPECT_TRUE(panel.periodic);
+  EXPECT_EQ(panel.depth_mm, 20);
+  EXPECT_NEAR(panel.thickness_mm(), 2.4, 1e-15);
+  ASSERT_EQ(panel.strands.size(), 2U);
+  const auto& core = panel.strands[1];
+  EXPECT_EQ(core.lattice.counts, (std::array<int, 3>{13, 5, 4}));
+  EXPECT_NEAR(core.lattice.extent(0), 13.3, 1e-13);
+  EXPECT_EQ(core.angle_deg, 90);
+  EXPECT_EQ(core.row, 1);
+  Tensor<3> quarter;
+  quarter << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  EXPECT_EQ(core.points.F.front(), quarter);
+  EXPECT_EQ(core.material.stiffness, wood::in_strand_axes(wood::library()[0], 0).stiffness);
+  Vec<3> low = core.points.x.front(), high = low;
+  for (const auto& x : corners(core)) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  EXPECT_LT((low - Vec<3>(3 - 2.6, 4 - 6.65, 0.8)).norm(), 1e-12);
+  EXPECT_LT((high - Vec<3>(3 + 2.6, 4 + 6.65, 2.4)).norm(), 1e-12);
+}
+
+TEST(MakePanel, NamesTheStrandOfAPlateThatIsWrong) {
+  auto mat = plate();
+  mat.layers[1].strands[0].material = "poplr";
+  try {
+    make_panel(mat, kinds(), 1, 2);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(
+        std::string(error.what()).rfind("layer 2, strand 1: unknown material \"poplr\"; did you mean \"poplar\"?", 0),
+        0U)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace strandlab
