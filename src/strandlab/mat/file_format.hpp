@@ -3,25 +3,20 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "strandlab/mat/raster.hpp"
 
 namespace strandlab::mat {
 
 using Json = nlohmann::json;
 using Keys = std::vector<std::string>;
 
-inline constexpr double kResolution = 1e6;  // coordinates and angles are whole multiples of its inverse, mm or degree
-inline constexpr double kLongestMat = 1e9;  // mm
+inline constexpr double kLongestMat = 1e9;      // mm
 inline constexpr double kThinnestLayer = 1e-3;  // mm
-
-// Nearest double to a coordinate rounded to 1e-6 mm: the number that the file's text reads back as.
-inline double on_raster(double mm) {
-  return std::round(mm * kResolution) / kResolution;
-}
 
 [[noreturn]] void reject(const std::string& where, const std::string& what);  // throws InputError
 std::string at_layer(const std::string& source, std::size_t layer);           // counted from 0, shown from 1
