@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -58,7 +57,7 @@ void analyse(const BondlineArguments& a) {
   const auto analysis = bondline::analyse(read(a), options);
   print("{}", report::text_of(analysis));
   const auto written = run::write(analysis, a.file, folder);
-  if (written.problem) tell(STDERR_FILENO, fmt::format("strandlab: {}\n", *written.problem));
+  for (const auto& warning : written.warnings) warn(warning);
   print("written: {}: {}, {} plots\n", printable(folder.string()),
         printable(fmt::format("{}", fmt::join(written.files, ", "))), written.plots);
 }

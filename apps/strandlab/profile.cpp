@@ -1,6 +1,5 @@
 // strandlab profile: density profiles of pressed panels, replicates together, beside measured ones.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -30,7 +29,7 @@ void profile_runs(const ProfileArguments& a) {
   const auto answer = run::density_profiles(a.question);
   const auto warnings = run::write(answer, folder);
   print("{}", run::text_of(answer));
-  for (const auto& warning : warnings) tell(STDERR_FILENO, fmt::format("strandlab: {}\n", printable(warning)));
+  for (const auto& warning : warnings) warn(warning);
   print("written: {}\n", printable(folder.string()));
 }
 

@@ -29,6 +29,10 @@ void tell(int descriptor, std::string_view text) {
   }
 }
 
+void warn(const std::string& line) {
+  tell(STDERR_FILENO, fmt::format("warning: {}\n", printable(line)));
+}
+
 Terminal::Terminal() : terminal_(::isatty(STDOUT_FILENO) == 1), last_plain_line_(std::chrono::steady_clock::now()) {}
 
 Terminal::~Terminal() {
@@ -47,7 +51,7 @@ void Terminal::say(const std::string& line) {
 
 void Terminal::warn(const std::string& line) {
   clear_progress();
-  tell(STDERR_FILENO, fmt::format("warning: {}\n", printable(line)));
+  app::warn(line);
 }
 
 void Terminal::progress(const run::Progress& progress) {

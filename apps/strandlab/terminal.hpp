@@ -28,6 +28,9 @@ void refuse_lost_output();
 // disk full while a run goes on.
 void tell(int descriptor, std::string_view text);
 
+// A warning on standard error, as a run's.
+void warn(const std::string& line);
+
 // A run as the terminal shows it.
 class Terminal final : public run::Observer {
  public:

@@ -147,7 +147,17 @@ def missing_results():
     check(strandlab("run", "a.toml", "-o", "out").returncode == DONE, "run")
     before = results("out")
     page = pathlib.Path("out/report.html").read_bytes()
-    for name in ("mat.json", "press.csv", "profile.csv", "moduli.csv", "theory.csv", "report.html"):
+    drawn = [str(p.relative_to("out")) for folder in ("pictures", "plots") for p in sorted(pathlib.Path("out", folder).iterdir())]
+    check(len(drawn) == 3 * 2 + 4 + 2 * 2, f"pictures of three panels, plots of the pressing and of two tests: {drawn}")
+    everything = {name: pathlib.Path("out", name).read_bytes() for name in drawn}
+    for name in drawn:
+        pathlib.Path("out", name).unlink()
+    result = strandlab("run", "a.toml", "-o", "out")
+    check(result.returncode == DONE and "made again" in result.stdout, f"pictures: {result.stdout}{result.stderr}")
+    for name, data in everything.items():
+        check(pathlib.Path("out", name).exists() and pathlib.Path("out", name).read_bytes() == data, f"{name} is drawn again")
+    check("finished" in strandlab("run", "a.toml", "-o", "out").stdout, "nothing is missing any more")
+    for name in ("mat.json", "press.csv", "profile.csv", "moduli.csv", "theory.csv", "report.html", "plots/tension_against_compliance.png"):
         kept = pathlib.Path("out", name).read_bytes()
         pathlib.Path("out", name).unlink()
         result = strandlab("run", "a.toml", "-o", "out")

@@ -8,8 +8,8 @@ from program import SOURCE, check, finish
 LITERAL = r'"(?:[^"\\]|\\.)*"'
 HEADING = re.compile(r"^#### `(.*)`$", re.MULTILINE)
 # What begins a warning: said while a run goes on, kept of a press or test, found of its numbers, or a picture that is missing.
-WARNING = re.compile(r"(?:\bwarn\(|\bwarnings?(?:->|\.)push_back\(|\bw\.push_back\(|\bkWarning,|\bwarning =|"
-                     r"return (?=fmt::format\(\"no picture))\s*(?:fmt::format\(\s*)?(" + LITERAL + r"(?:\s*" + LITERAL + ")*)")
+WARNING = re.compile(r"(?:\bwarn\(|\bwarnings?(?:->|\.)push_back\(|\bw\.push_back\(|\bkWarning,|\bwarning =)"
+                     r"\s*(?:fmt::format\(\s*)?(" + LITERAL + r"(?:\s*" + LITERAL + ")*)")
 # Remarks on a hot press cycle are pushed to a plain list, in these files.
 REMARKING = ("src/strandlab/hotpress/answers.cpp", "src/strandlab/run/hotpress.cpp")
 REMARK = re.compile(r"\blist\.push_back\(\s*(?:fmt::format\(\s*)?(" + LITERAL + r"(?:\s*" + LITERAL + ")*)")

@@ -44,7 +44,7 @@ struct KeptStates {
 // Where a case says what only its use can judge, as messages open: "panel.toml:12: mat.file = \"x.json\"". Empty for
 // a case that was not read.
 struct CasePlaces {
-  std::string rows, mat_file, bondline_file, states;
+  std::string rows, mat_file, bondline_file, bondline_group, states;
 };
 
 inline constexpr int kPointsPerCell = 2;  // material points per cell and axis, as press::Resolution has it

@@ -511,6 +511,12 @@ void check_kind(const KindSettings& kind, const std::vector<Given>& given, const
     throw InputError(fmt::format("{}: kinds.{}.{} {}", where_of(given, source, {"kinds", kind.name, key}),
                                  shortened(kind.name), key, message));
   };
+  if (s.length_mm == 0 && (s.length_sd_mm > 0 || s.gap_mm > 0 || s.gap_sd_mm > 0)) {
+    fail("length_mm",
+         fmt::format("= 0 means that one strand fills the row: length_sd_mm, gap_mm and gap_sd_mm must be 0 too, not "
+                     "{}, {} and {}",
+                     s.length_sd_mm, s.gap_mm, s.gap_sd_mm));
+  }
   if (s.length_sd_mm > s.length_mm) {
     fail("length_sd_mm",
          fmt::format("= {} mm: must not exceed the mean, length_mm = {}: the truncated normal distribution "
@@ -526,10 +532,6 @@ void check_kind(const KindSettings& kind, const std::vector<Given>& given, const
     fail("angle_sd_deg", fmt::format("= {} and angle_spread_deg = {}: strands have one distribution of angles, normal "
                                      "or uniform; give one of the two",
                                      kind.angle_sd_deg, kind.angle_spread_deg));
-  }
-  if (s.length_mm == 0 && s.gap_mm > 0) {
-    fail("length_mm",
-         fmt::format("= 0 means that one strand fills the row, so gap_mm must be 0 too, not {}", s.gap_mm));
   }
 }
 
@@ -627,25 +629,27 @@ void make_absolute(std::string& file, const fs::path& folder) {
 
 // The glue compliance that a bond-line result gives, where the case names one.
 void use_bondline(Case& c, const fs::path& file) {
-  const auto fail = [&](const std::string& message) {
-    throw InputError(fmt::format("{}: {}", file.string(), message));
+  const auto fail = [](const std::string& place, const std::string& message) {
+    throw InputError(fmt::format("{}: {}", place, message));
   };
   if (c.bondline_file.empty()) {
-    if (!c.bondline_group.empty()) fail("glue.group needs glue.from_bondline, the result that has the group");
+    if (!c.bondline_group.empty())
+      fail(c.places.bondline_group, "needs glue.from_bondline, the result that has the group");
     return;
   }
-  if (c.bondline_group.empty()) fail("glue.from_bondline needs glue.group, the group of that result to take");
+  if (c.bondline_group.empty()) fail(c.places.bondline_file, "needs glue.group, the group of that result to take");
   std::vector<double> measured;
   try {
     measured = {bondline::group_compliance(c.bondline_file, c.bondline_group)};
   } catch (const InputError& e) {
-    throw InputError(fmt::format("{}: {}", c.places.bondline_file, e.what()));
+    fail(c.places.bondline_file, e.what());
   }
   auto& given = c.test.compliance_t_mm_per_MPa;
   if (given != measured && given != Case().test.compliance_t_mm_per_MPa)
-    fail(fmt::format(
-        "glue.compliance_t_mm_per_MPa = [{}] and glue.from_bondline ({} mm/MPa) contradict each other; give one",
-        fmt::join(given, ", "), measured.front()));
+    fail(file.string(),
+         fmt::format(
+             "glue.compliance_t_mm_per_MPa = [{}] and glue.from_bondline ({} mm/MPa) contradict each other; give one",
+             fmt::join(given, ", "), measured.front()));
   given = measured;
 }
 
@@ -659,6 +663,7 @@ Case case_from_sources(Case c, const std::vector<Source>& sources) {
       if (!given[i].node) continue;
       if (given[i].path == Path{"hotpress", "log", "file"}) log_folder = source.folder;
       const auto* key = find_key(given[i].path);
+      if (key->path == "glue.group") c.places.bondline_group = opening_of(given[i], *key);
       if (!key->names_file) continue;
       const bool is_mat = key->path == "mat.file";
       (is_mat ? mat_folder : bondline_folder) = source.folder;

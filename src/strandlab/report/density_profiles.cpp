@@ -6,8 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "strandlab/report/gnuplot.hpp"
-
 namespace strandlab::report {
 namespace {
 
@@ -69,7 +67,7 @@ Band band_of(const profile::Mean& mean) {
   return band;
 }
 
-Plot profile_plot(const std::string& title, const std::string& key_title) {
+Plot empty_plot(const std::string& title, const std::string& key_title) {
   return {title, kHeightLabel, kDensityLabel, key_title, CurveStyle::kLines, 0, 100, {}, {}};
 }
 
@@ -99,11 +97,10 @@ files::CsvTable profile_summary_table(const std::vector<profile::Profile>& state
   return table;
 }
 
-std::optional<std::string> plot_density_profiles(const std::vector<profile::Profile>& states,
-                                                 const std::filesystem::path& png) {
-  Plot plot = profile_plot("Density profile", "compaction");
+Plot profile_plot(const std::vector<profile::Profile>& states) {
+  Plot plot = empty_plot("Density profile", "compaction");
   for (const auto& p : states) plot.curves.push_back(curve_of(p, in_percent(p.compaction)));
-  return draw(plot, png);
+  return plot;
 }
 
 files::CsvTable replicate_profile_table(const std::vector<Replicate>& replicates) {
@@ -161,18 +158,16 @@ files::CsvTable mean_profile_table(const std::vector<profile::Mean>& means) {
   return table;
 }
 
-std::optional<std::string> plot_mean_profiles(const std::vector<profile::Mean>& means,
-                                              const std::filesystem::path& png) {
-  Plot plot = profile_plot("Density profile, mean and 95 % t-interval of the replicates", "compaction");
+Plot mean_profile_plot(const std::vector<profile::Mean>& means) {
+  Plot plot = empty_plot("Density profile, mean and 95 % t-interval of the replicates", "compaction");
   for (const auto& mean : means) {
     plot.curves.push_back(curve_of(mean.profile(), in_percent(mean.compaction)));
     plot.bands.push_back(band_of(mean));
   }
-  return draw(plot, png);
+  return plot;
 }
 
-std::optional<std::string> plot_profile_summaries(const std::vector<profile::Mean>& means,
-                                                  const std::filesystem::path& png) {
+Plot profile_summary_plot(const std::vector<profile::Mean>& means) {
   Plot plot{
       "Density against compaction", "compaction, %", kDensityLabel, "", CurveStyle::kLinesAndPoints, 0, 1, {}, {}};
   using Summary = profile::Summary;
@@ -189,7 +184,7 @@ std::optional<std::string> plot_profile_summaries(const std::vector<profile::Mea
   }
   plot.x_low = -1;
   plot.x_high = means.empty() ? 1 : 100 * means.back().compaction + 1;
-  return draw(plot, png);
+  return plot;
 }
 
 files::CsvTable measured_table(const std::vector<profile::Specimen>& specimens) {
@@ -214,17 +209,16 @@ files::CsvTable comparison_table(const std::vector<profile::Mean>& simulated, co
   return table;
 }
 
-std::optional<std::string> plot_measured_profiles(const profile::Mean& simulated, const profile::Mean& measured,
-                                                  const std::filesystem::path& png) {
+Plot measured_profile_plot(const profile::Mean& simulated, const profile::Mean& measured) {
   const double rms = profile::rms_difference(simulated.profile(), measured.profile());
-  Plot plot = profile_plot(fmt::format("Simulated at {} compaction, and measured: rms difference {:.0f} kg/m³",
-                                       in_percent(simulated.compaction), rms),
-                           "");
+  Plot plot = empty_plot(fmt::format("Simulated at {} compaction, and measured: rms difference {:.0f} kg/m³",
+                                     in_percent(simulated.compaction), rms),
+                         "");
   const auto count = [](const profile::Mean& mean) { return mean.density_kg_m3.front().n; };
   plot.curves.push_back(curve_of(simulated.profile(), fmt::format("simulated, n = {}", count(simulated))));
   plot.curves.push_back(curve_of(measured.profile(), fmt::format("measured, n = {}", count(measured))));
   plot.bands = {band_of(simulated), band_of(measured)};
-  return draw(plot, png);
+  return plot;
 }
 
 }  // namespace strandlab::report

@@ -1,14 +1,13 @@
-// Density profiles as tables and pictures.
+// Density profiles as tables and plots.
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "strandlab/files/csv.hpp"
 #include "strandlab/profile/measured.hpp"
 #include "strandlab/profile/profile.hpp"
+#include "strandlab/report/gnuplot.hpp"
 
 namespace strandlab::report {
 
@@ -19,9 +18,8 @@ files::CsvTable profile_table(const std::vector<profile::Profile>& states);
 // profile_summary.csv, one row per compaction: what profile::Summary holds.
 files::CsvTable profile_summary_table(const std::vector<profile::Profile>& states);
 
-// Density against relative height, one curve per compaction. As report::Warning: a sentence where it is not drawn.
-[[nodiscard]] std::optional<std::string> plot_density_profiles(const std::vector<profile::Profile>& states,
-                                                               const std::filesystem::path& png);
+// Density against relative height, one curve per compaction.
+Plot profile_plot(const std::vector<profile::Profile>& states);
 
 // ---- Several runs --------------------------------------------------------------------------------------------------
 
@@ -41,11 +39,9 @@ files::CsvTable replicate_summary_table(const std::vector<Replicate>& replicates
 files::CsvTable mean_profile_table(const std::vector<profile::Mean>& means);
 
 // Mean profiles with their 95 % t-interval as a band, one per compaction.
-[[nodiscard]] std::optional<std::string> plot_mean_profiles(const std::vector<profile::Mean>& means,
-                                                            const std::filesystem::path& png);
+Plot mean_profile_plot(const std::vector<profile::Mean>& means);
 // Peak, skin, surface, core and mean density of the replicates' mean profile against compaction.
-[[nodiscard]] std::optional<std::string> plot_profile_summaries(const std::vector<profile::Mean>& means,
-                                                                const std::filesystem::path& png);
+Plot profile_summary_plot(const std::vector<profile::Mean>& means);
 
 // ---- Measured profiles ---------------------------------------------------------------------------------------------
 
@@ -55,8 +51,6 @@ files::CsvTable measured_table(const std::vector<profile::Specimen>& specimens);
 // rms_difference_of_shapes, that of the profiles each over its own mean (no unit).
 files::CsvTable comparison_table(const std::vector<profile::Mean>& simulated, const profile::Mean& measured);
 // One compaction's simulated mean with its band, the measured specimens' mean over it, and the rms difference.
-[[nodiscard]] std::optional<std::string> plot_measured_profiles(const profile::Mean& simulated,
-                                                                const profile::Mean& measured,
-                                                                const std::filesystem::path& png);
+Plot measured_profile_plot(const profile::Mean& simulated, const profile::Mean& measured);
 
 }  // namespace strandlab::report

@@ -14,6 +14,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <string_view>
 #include <system_error>
@@ -149,6 +150,50 @@ bool wait_until(pid_t child, Clock::time_point end, int& status) {
   }
 }
 
+// The PNG at the beginning of what gnuplot prints; empty where there is none, or only the begin of one.
+std::string_view png_at_begin(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  constexpr auto kSignature = "\x89PNG\r\n\x1a\n"sv;
+  constexpr std::size_t kLength = 4, kName = 4, kChecksum = 4;  // bytes of a chunk around its data
+  if (bytes.substr(0, kSignature.size()) != kSignature) return {};
+  std::size_t end = kSignature.size();
+  for (bool last = false; !last;) {
+    if (bytes.size() < end + kLength + kName + kChecksum) return {};
+    std::size_t length = 0;  // of its data, the highest byte first
+    for (const char byte : bytes.substr(end, kLength)) length = 256 * length + static_cast<unsigned char>(byte);
+    last = bytes.substr(end + kLength, kName) == "IEND";
+    end += kLength + kName + length + kChecksum;
+    if (bytes.size() < end) return {};
+  }
+  return bytes.substr(0, end);
+}
+
+// gnuplot goes on behind a mistake: what it prints after each script tells whose a picture is.
+constexpr std::string_view kMark = "-- end of a picture of strandlab --\n";
+
+// One program: each script starts from gnuplot's own settings.
+std::string joined(const std::vector<Script>& scripts) {
+  std::string text;
+  for (const auto& script : scripts) {
+    text += text.empty() ? "" : "reset\n";
+    text += script.text;
+    text += fmt::format("\nset print \"-\"\nprint \"{}\"\n", kMark.substr(0, kMark.size() - 1));
+  }
+  return text;
+}
+
+// What each script printed, empty where that is no whole PNG.
+std::vector<std::string_view> pngs_of(std::size_t scripts, std::string_view out) {
+  std::vector<std::string_view> pngs;
+  while (pngs.size() < scripts) {
+    pngs.push_back(png_at_begin(out));
+    out.remove_prefix(pngs.back().size());
+    const auto mark = out.find(kMark);
+    out.remove_prefix(mark == std::string_view::npos ? out.size() : mark + kMark.size());
+  }
+  return pngs;
+}
+
 // The script as a file in memory, at its start: nothing is left of it, and no other run can take it for its own.
 class ScriptFile {
  public:
@@ -246,29 +291,47 @@ std::string gnuplot_script(const Plot& plot) {
   return script + "plot " + curves + "\n";
 }
 
-std::optional<std::string> draw_script(const std::string& script, const std::filesystem::path& png,
-                                       const Gnuplot& gnuplot) {
-  const Finished finished = run(gnuplot, script);
+Drawn draw_scripts(const std::vector<Script>& scripts, const Gnuplot& gnuplot) {
+  if (scripts.empty()) return {};
+  const Finished finished = run(gnuplot, joined(scripts));
+  const auto pngs = pngs_of(scripts.size(), finished.out);
+  Drawn drawn;
+  std::string missing;
+  for (std::size_t i = 0; i < scripts.size(); ++i) {
+    const auto& file = scripts[i].png;
+    if (pngs[i].empty()) {
+      missing += (missing.empty() ? "" : ", ") + file.string();
+    } else {
+      files::write_atomically(file, pngs[i]);
+      drawn.pictures.push_back(file);
+    }
+  }
+  if (missing.empty()) return drawn;
+  std::string warning = fmt::format("no picture {}: {} failed: {}", missing, gnuplot.program, finished.messages);
   if (finished.status == -1) {
-    return fmt::format("no picture {}: cannot start {} ({}); install the package gnuplot-nox to get plots",
-                       png.string(), gnuplot.program, finished.messages);
+    warning = fmt::format("no picture {}: cannot start {} ({}); install the package gnuplot-nox to get plots", missing,
+                          gnuplot.program, finished.messages);
+  } else if (!finished.in_time) {
+    warning = fmt::format("no picture {}: {} was not done after {:g} s and was ended", missing, gnuplot.program,
+                          gnuplot.limit_s);
   }
-  if (!finished.in_time) {
-    return fmt::format("no picture {}: {} was not done after {:g} s and was ended", png.string(), gnuplot.program,
-                       gnuplot.limit_s);
-  }
-  if (finished.status != 0 || finished.out.empty()) {
-    return fmt::format("no picture {}: {} failed: {}", png.string(), gnuplot.program, finished.messages);
-  }
-  files::write_atomically(png, finished.out);
-  return std::nullopt;
+  drawn.warnings.push_back(warning);
+  return drawn;
 }
 
-std::optional<std::string> draw(const Plot& plot, const std::filesystem::path& png, const Gnuplot& gnuplot) {
-  bool empty = true;
-  for (const auto& curve : plot.curves) empty = empty && curve.x.empty();
-  if (empty) return fmt::format("no picture {}: nothing to plot yet", png.string());
-  return draw_script(gnuplot_script(plot), png, gnuplot);
+Drawn draw(const std::vector<Picture>& pictures, const Gnuplot& gnuplot) {
+  std::vector<std::string> warnings;
+  std::vector<Script> scripts;
+  for (const auto& [plot, png] : pictures) {
+    const auto& curves = plot.curves;
+    if (std::all_of(curves.begin(), curves.end(), [](const Curve& curve) { return curve.x.empty(); }))
+      warnings.push_back(fmt::format("no picture {}: nothing to plot yet", png.string()));
+    else
+      scripts.push_back({gnuplot_script(plot), png});
+  }
+  auto drawn = draw_scripts(scripts, gnuplot);
+  drawn.warnings.insert(drawn.warnings.begin(), warnings.begin(), warnings.end());
+  return drawn;
 }
 
 }  // namespace strandlab::report

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,19 +35,36 @@ struct Plot {
 // (dark) to the last (light) of a sequential map.
 std::string gnuplot_script(const Plot& plot);
 
-// What draws, and how long it may take: a plot takes a second, a gnuplot that waits for something is ended.
+// What draws, and how long it may take: plots take a tenth of a second each, a gnuplot that waits for something is
+// ended.
 struct Gnuplot {
   std::string program = "gnuplot";
   double limit_s = 60;
 };
 
-// Runs a gnuplot program that prints a PNG to its standard output and replaces `png` atomically by it. Returns a
-// sentence for the log where gnuplot is missing, fails or takes too long; throws as files::write_atomically(), and
-// RunError where the system has no pipes left.
-std::optional<std::string> draw_script(const std::string& script, const std::filesystem::path& png,
-                                       const Gnuplot& gnuplot = {});
+// A gnuplot program that prints one PNG to its standard output, and the file of that picture.
+struct Script {
+  std::string text;
+  std::filesystem::path png;
+};
 
-// The same for a plot; nothing is drawn, and the sentence says so, where its curves have no points.
-std::optional<std::string> draw(const Plot& plot, const std::filesystem::path& png, const Gnuplot& gnuplot = {});
+struct Drawn {
+  std::vector<std::filesystem::path> pictures;
+  std::vector<std::string> warnings;  // sentences for the log on those that are missing
+};
+
+// Runs all programs in one gnuplot, whose start takes longer than a plot, and replaces each file atomically by its
+// picture. A mistake costs its own picture only. Throws as files::write_atomically(), and RunError where the system has
+// no pipes left.
+[[nodiscard]] Drawn draw_scripts(const std::vector<Script>& scripts, const Gnuplot& gnuplot = {});
+
+// A plot and the file of its picture.
+struct Picture {
+  Plot plot;
+  std::filesystem::path png;
+};
+
+// The same for plots; one whose curves have no points is not drawn, and its sentence says so.
+[[nodiscard]] Drawn draw(const std::vector<Picture>& pictures, const Gnuplot& gnuplot = {});
 
 }  // namespace strandlab::report

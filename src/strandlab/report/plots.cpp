@@ -8,8 +8,6 @@
 #include <limits>
 #include <map>
 
-#include "strandlab/report/gnuplot.hpp"
-
 namespace strandlab::report {
 namespace {
 
@@ -68,8 +66,8 @@ Curve outline(const Histogram& h, const std::string& name) {
   return curve;
 }
 
-Warning plot_histograms(const std::vector<Morphology>& states, Histogram Morphology::*quantity,
-                        const std::string& title, const std::string& x_label, const std::filesystem::path& png) {
+Plot histogram_plot(const std::vector<Morphology>& states, Histogram Morphology::*quantity, const std::string& title,
+                    const std::string& x_label) {
   Plot plot{title, x_label, "share of the wood, %", "compaction", CurveStyle::kSteps, 0, 1, {}, {}};
   for (const auto& state : states) {
     const Histogram& h = state.*quantity;
@@ -81,12 +79,12 @@ Warning plot_histograms(const std::vector<Morphology>& states, Histogram Morphol
   if (plot.curves.empty() && !states.empty())  // every state is one bar
     plot.curves.push_back(outline(states.back().*quantity, compaction_percent(states.back().compaction)));
   fit_axis(plot, std::nullopt);
-  return draw(plot, png);
+  return plot;
 }
 
 }  // namespace
 
-Warning plot_stress(const std::vector<press::Record>& records, const std::filesystem::path& png) {
+Plot stress_plot(const std::vector<press::Record>& records) {
   Plot plot{"Pressing", "compaction, %", "stress, mean of both platens, MPa", "", CurveStyle::kLines, 0, 1, {Curve{}},
             {}};
   for (const auto& record : records) {
@@ -94,11 +92,11 @@ Warning plot_stress(const std::vector<press::Record>& records, const std::filesy
     plot.curves[0].y.push_back(record.stress_MPa);
   }
   fit_axis(plot, 0.0);
-  return draw(plot, png);
+  return plot;
 }
 
-Warning plot_modulus_against_compliance(const std::vector<PanelModulus>& moduli, const std::string& test,
-                                        const std::filesystem::path& png, const std::vector<Curve>& references) {
+Plot compliance_plot(const std::vector<PanelModulus>& moduli, const std::string& test,
+                     const std::vector<Curve>& references) {
   std::map<double, std::map<double, double>> curves;
   for (const auto& m : moduli) {
     if (m.test == test) curves[rounded_percent(m.compaction)][m.compliance_t_mm_per_MPa] = m.modulus_MPa;
@@ -108,11 +106,11 @@ Warning plot_modulus_against_compliance(const std::vector<PanelModulus>& moduli,
   for (const auto& [compaction, points] : curves)
     plot.curves.push_back(curve_of(compaction_percent(compaction / 100), points));
   fit_axis(plot, std::nullopt);
-  return draw(plot, png);
+  return plot;
 }
 
-Warning plot_modulus_against_compaction(const std::vector<PanelModulus>& moduli, const std::string& test,
-                                        const std::filesystem::path& png, const std::vector<Curve>& references) {
+Plot compaction_plot(const std::vector<PanelModulus>& moduli, const std::string& test,
+                     const std::vector<Curve>& references) {
   std::map<double, std::map<double, double>> curves;
   for (const auto& m : moduli) {
     if (m.test == test) curves[m.compliance_t_mm_per_MPa][1 / (1 - m.compaction)] = m.modulus_MPa;
@@ -122,16 +120,16 @@ Warning plot_modulus_against_compaction(const std::vector<PanelModulus>& moduli,
   for (const auto& [compliance_t, points] : curves)
     plot.curves.push_back(curve_of(fmt::format("{}", compliance_t), points));
   fit_axis(plot, std::nullopt);
-  return draw(plot, png);
+  return plot;
 }
 
-Warning plot_grain_angles(const std::vector<Morphology>& states, const std::filesystem::path& png) {
-  return plot_histograms(states, &Morphology::grain_angle, "Grain angle", "grain angle against the panel, °", png);
+Plot grain_angle_plot(const std::vector<Morphology>& states) {
+  return histogram_plot(states, &Morphology::grain_angle, "Grain angle", "grain angle against the panel, °");
 }
 
-Warning plot_thickness_strains(const std::vector<Morphology>& states, const std::filesystem::path& png) {
-  return plot_histograms(states, &Morphology::thickness_strain, "Thickness strain of the strands",
-                         "thickness strain of the strands", png);
+Plot thickness_strain_plot(const std::vector<Morphology>& states) {
+  return histogram_plot(states, &Morphology::thickness_strain, "Thickness strain of the strands",
+                        "thickness strain of the strands");
 }
 
 }  // namespace strandlab::report

@@ -77,9 +77,9 @@ Layout layout_of(const Panel<2>& panel, const PictureOptions& options) {
   return l;
 }
 
-class Picture {
+class Canvas {
  public:
-  Picture(int width, int height)
+  Canvas(int width, int height)
       : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), cairo_surface_destroy),
         cairo_(cairo_create(surface_.get()), cairo_destroy) {
     cairo_select_font_face(cairo_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
@@ -152,7 +152,7 @@ void path_through(cairo_t* cairo, const Layout& l, const std::vector<Vec<2>>& co
 }
 
 // Cells without antialiasing, so that no seams show between them.
-void draw_cells(Picture& picture, const Layout& l, const Strand<2>& strand, Colouring colouring,
+void draw_cells(Canvas& picture, const Layout& l, const Strand<2>& strand, Colouring colouring,
                 const ColourRange& range) {
   const auto c = corners(strand);
   cairo_set_antialias(picture.get(), CAIRO_ANTIALIAS_NONE);
@@ -164,7 +164,7 @@ void draw_cells(Picture& picture, const Layout& l, const Strand<2>& strand, Colo
   cairo_set_antialias(picture.get(), CAIRO_ANTIALIAS_DEFAULT);
 }
 
-void draw_outline(Picture& picture, const Layout& l, const Strand<2>& strand) {
+void draw_outline(Canvas& picture, const Layout& l, const Strand<2>& strand) {
   path_through(picture.get(), l, corners(strand), outline(strand.lattice));
   picture.set({0.1, 0.1, 0.1});
   cairo_set_line_width(picture.get(), std::max(0.6, l.width / 2200.0));
@@ -172,7 +172,7 @@ void draw_outline(Picture& picture, const Layout& l, const Strand<2>& strand) {
 }
 
 // Platens, and between them the colour of voids: one that no wood has.
-void draw_press(Picture& picture, const Layout& l, const Panel<2>& panel, Colouring colouring) {
+void draw_press(Canvas& picture, const Layout& l, const Panel<2>& panel, Colouring colouring) {
   if (colouring == Colouring::kGrainAngle) picture.set({0.62, 0.63, 0.64});
   picture.rectangle(l.left, l.y(panel.top_mm), l.right, l.y(panel.bottom_mm));
   picture.set({0.28, 0.30, 0.33});
@@ -180,7 +180,7 @@ void draw_press(Picture& picture, const Layout& l, const Panel<2>& panel, Colour
   picture.rectangle(l.left, l.y(panel.bottom_mm), l.right, l.y(panel.bottom_mm) + l.platen);
 }
 
-void draw_axes(Picture& picture, const Layout& l, const Panel<2>& panel) {
+void draw_axes(Canvas& picture, const Layout& l, const Panel<2>& panel) {
   const double thin = std::max(1.0, l.text / 14), tick = 0.4 * l.text, size = 0.95 * l.text;
   const double foot = l.bottom + l.platen;
   picture.set({0.15, 0.15, 0.15});
@@ -198,7 +198,7 @@ void draw_axes(Picture& picture, const Layout& l, const Panel<2>& panel) {
   picture.upright_text("y, mm", 0.95 * l.text, (l.top + l.bottom) / 2, size);
 }
 
-void draw_colour_bar(Picture& picture, const Layout& l, Colouring colouring, const ColourRange& range) {
+void draw_colour_bar(Canvas& picture, const Layout& l, Colouring colouring, const ColourRange& range) {
   const double height = std::max(l.bottom - l.top, 5 * l.text);  // a thin panel still gets a readable bar
   const double middle = (l.top + l.bottom) / 2, top = middle - height / 2, bottom = middle + height / 2;
   const double right = l.bar_left + l.bar_width, thin = std::max(1.0, l.text / 14);
@@ -261,7 +261,7 @@ void draw_section(const Panel<2>& panel, const PictureOptions& options, const st
   check(options);
   const ColourRange range = options.range.value_or(common_range({&panel}, options.colouring));
   const Layout l = layout_of(panel, options);
-  Picture picture(l.width, l.height);
+  Canvas picture(l.width, l.height);
   draw_press(picture, l, panel, options.colouring);
   for (const auto& strand : panel.strands) draw_cells(picture, l, strand, options.colouring, range);
   for (const auto& strand : panel.strands) draw_outline(picture, l, strand);

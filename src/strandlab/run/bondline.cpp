@@ -20,13 +20,11 @@ BondLinesWritten write(const bondline::Analysis& analysis, const fs::path& table
   report::comparison_table(analysis).write(folder / "comparisons.csv");
   const auto json = table.stem().string() + ".json";
   files::write_atomically(folder / json, bondline::to_json(analysis, table.filename().string()));
-  BondLinesWritten written{{"specimens.csv", "groups.csv", "comparisons.csv", json}, 0, std::nullopt};
-  for (const auto& picture : bondline::pictures(analysis)) {
-    written.problem = report::draw_script(picture.script, folder / picture.file_name);
-    if (written.problem) break;
-    ++written.plots;
-  }
-  return written;
+  std::vector<report::Script> scripts;
+  for (const auto& picture : bondline::pictures(analysis))
+    scripts.push_back({picture.script, folder / picture.file_name});
+  const auto drawn = report::draw_scripts(scripts);
+  return {{"specimens.csv", "groups.csv", "comparisons.csv", json}, drawn.pictures.size(), drawn.warnings};
 }
 
 }  // namespace strandlab::run

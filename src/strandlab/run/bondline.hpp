@@ -1,8 +1,8 @@
 // Lap-shear tests from a table of specimens into a folder of results.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +15,8 @@ std::filesystem::path bondline_folder(const std::filesystem::path& table);
 
 struct BondLinesWritten {
   std::vector<std::string> files;
-  int plots = 0;
-  std::optional<std::string> problem;  // why a picture could not be drawn; those behind it are not tried
+  std::size_t plots = 0;
+  std::vector<std::string> warnings;  // why pictures could not be drawn
 };
 
 // Makes the folder where it is missing and writes specimens.csv, groups.csv, comparisons.csv, <table>.json and plots.

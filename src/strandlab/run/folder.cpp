@@ -101,7 +101,9 @@ int lock_folder(const fs::path& folder, int operation) {
 }
 
 bool is_step(const Json& step) {
-  return step.is_object() && (!step.contains("finished") || step["finished"].is_boolean());
+  const auto plots = step.is_object() ? step.value("plots", Json::array()) : Json();
+  return step.is_object() && (!step.contains("finished") || step["finished"].is_boolean()) && plots.is_array() &&
+         std::all_of(plots.begin(), plots.end(), [](const Json& name) { return name.is_string(); });
 }
 
 // Older records have none.
@@ -234,12 +236,26 @@ void RunFolder::set_finished(cases::Step step) {
   save();
 }
 
+void RunFolder::add_plots(cases::Step step, const std::vector<fs::path>& files) {
+  auto names = plots_of(step);
+  for (const auto& file : files) names.insert(file.lexically_relative(folder_).string());
+  record(step)["plots"] = names;
+}
+
+std::set<std::string> RunFolder::plots_of(cases::Step step) const {
+  return record_.at("steps").value(name_of_step(step), Json::object()).value("plots", std::set<std::string>{});
+}
+
 std::vector<std::string> RunFolder::missing(cases::Step step, const cases::Case& c) const {
   auto names = tables_of(step);
   if (step == cases::Step::kPress) {
-    for (const double compaction : c.schedule.compactions)
-      names.push_back(panel_file(compaction).lexically_relative(folder_).string());
+    for (const double compaction : c.schedule.compactions) {
+      for (const auto& file :
+           {panel_file(compaction), picture_file("grain_angle", compaction), picture_file("density", compaction)})
+        names.push_back(file.lexically_relative(folder_).string());
+    }
   }
+  for (const auto& name : plots_of(step)) names.push_back(name);
   std::erase_if(names, [this](const std::string& name) { return fs::exists(file(name)); });
   return names;
 }

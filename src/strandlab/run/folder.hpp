@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,9 @@ class RunFolder {
 
   bool finished(cases::Step step) const;
   void set_finished(cases::Step step);
-  // Tables and panels of a finished step of this case that are no longer in the folder, by name.
+  // Files of the folder that were drawn in a step: missed like its tables where they have gone.
+  void add_plots(cases::Step step, const std::vector<std::filesystem::path>& files);
+  // Tables, panels, pictures and plots of a finished step of this case that are no longer in the folder, by name.
   std::vector<std::string> missing(cases::Step step, const cases::Case& c) const;
   // The steps from `first` on are undone and what they left is removed. A step does this to the page before it changes
   // what the page shows, so that no page is ever taken for that of other results.
@@ -59,6 +62,7 @@ class RunFolder {
   void refuse_other_case(const cases::Case& c) const;
   void refuse_unpressed(bool exists, const cases::Case& c) const;
   void erase_steps(cases::Step first);
+  std::set<std::string> plots_of(cases::Step step) const;
   void remove_leftovers() const;
   void write_case(const cases::Case& c);
 

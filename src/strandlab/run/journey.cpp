@@ -78,6 +78,13 @@ void page_into(Journey& journey) {
   }
 }
 
+void draw_plots(Journey& journey, Step step, const std::vector<report::Picture>& plots) {
+  stop_if_cancelled(journey.log);
+  const auto drawn = report::draw(plots);
+  for (const auto& warning : drawn.warnings) journey.log.warn(warning);
+  journey.folder.add_plots(step, drawn.pictures);
+}
+
 Formed form(const cases::Case& c, const Place& place, Observer& observer) {
   return travel(c, place, Step::kMat, Step::kMat, observer, [](Journey& journey) {
     const bool done = is_there(journey, Step::kMat);

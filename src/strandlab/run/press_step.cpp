@@ -82,16 +82,10 @@ void write_tables(Journey& journey, const Shapes& shapes) {
   report::profile_summary_table(shapes.density_profiles).write(folder.file("profile_summary.csv"));
 }
 
-void warn_if(Observer& observer, const report::Warning& warning) {
-  stop_if_cancelled(observer);
-  if (warning) observer.warn(*warning);
-}
-
 // Everything that follows from the panels and the records of the pressing; without records, what follows from the
 // panels.
 void write_what_follows(Journey& journey, const std::vector<press::Record>& records,
                         const std::vector<std::string>& warnings) {
-  auto& log = journey.log;
   const auto pictures = journey.folder.file("pictures");
   const auto panels = read_panels(journey);
   const auto shapes = shapes_of(journey.formed.c, panels);
@@ -99,11 +93,13 @@ void write_what_follows(Journey& journey, const std::vector<press::Record>& reco
   record["density_profiles"] = run::to_json(shapes.density_profiles);
   if (!records.empty()) record["findings"] = report::to_json(findings_of(journey.formed.c, records, warnings, shapes));
   write_tables(journey, shapes);
-  warn_if(log, report::plot_density_profiles(shapes.density_profiles, pictures / "density_profile.png"));
   draw_pictures(journey, panels);
-  if (!records.empty()) warn_if(log, report::plot_stress(records, pictures / "stress.png"));
-  warn_if(log, report::plot_grain_angles(shapes.morphologies, pictures / "grain_angles.png"));
-  warn_if(log, report::plot_thickness_strains(shapes.morphologies, pictures / "thickness_strains.png"));
+  std::vector<report::Picture> plots{
+      {report::profile_plot(shapes.density_profiles), pictures / "density_profile.png"},
+      {report::grain_angle_plot(shapes.morphologies), pictures / "grain_angles.png"},
+      {report::thickness_strain_plot(shapes.morphologies), pictures / "thickness_strains.png"}};
+  if (!records.empty()) plots.push_back({report::stress_plot(records), pictures / "stress.png"});
+  draw_plots(journey, Step::kPress, plots);
 }
 
 // What a hot press's cycle says, beside what its panel does.
@@ -137,21 +133,19 @@ std::vector<press::Record> last_records(const Journey& journey) {
   return last && last->snapshots_done == snapshots ? last->records : std::vector<press::Record>{};
 }
 
-// Tables that are missing of a finished pressing follow from its panels, press.csv from its last checkpoint.
+// Tables, pictures and plots that are missing of a finished pressing follow from its panels, press.csv and its plot
+// from its last checkpoint.
 void restore_tables(Journey& journey) {
   auto& folder = journey.folder;
   const auto missing = folder.missing(Step::kPress, journey.formed.c);
   if (missing.empty()) return;
   refuse_missing_panels(journey);
-  std::vector<press::Record> records;
-  if (!fs::exists(folder.file("press.csv"))) {
-    records = last_records(journey);
-    if (records.empty()) {
-      throw InputError(
-          fmt::format("{}: missing: press.csv, and the checkpoint of the end of the pressing that has its numbers: put "
-                      "one back, or press again with strandlab press --force",
-                      folder.path().string()));
-    }
+  const auto records = last_records(journey);
+  if (records.empty() && !fs::exists(folder.file("press.csv"))) {
+    throw InputError(
+        fmt::format("{}: missing: press.csv, and the checkpoint of the end of the pressing that has its numbers: put "
+                    "one back, or press again with strandlab press --force",
+                    folder.path().string()));
   }
   journey.log.say(fmt::format("press: made again, as missing: {}", fmt::join(missing, ", ")));
   folder.forget(Step::kPage);

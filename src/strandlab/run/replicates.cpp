@@ -185,22 +185,19 @@ fs::path profile_folder(const ProfileQuestion& question) {
 
 std::vector<std::string> write(const ProfileAnswer& answer, const fs::path& folder) {
   files::make_folder(folder);
-  std::vector<std::string> warnings;
-  const auto keep = [&warnings](const std::optional<std::string>& warning) {
-    if (warning) warnings.push_back(*warning);
-  };
   const auto& means = answer.means;
   report::replicate_profile_table(answer.replicates).write(folder / "profile.csv");
   report::replicate_summary_table(answer.replicates).write(folder / "profile_summary.csv");
   report::mean_profile_table(means).write(folder / "profile_mean.csv");
-  keep(report::plot_mean_profiles(means, folder / "profile.png"));
-  keep(report::plot_profile_summaries(means, folder / "against_compaction.png"));
-  if (!answer.comparison) return warnings;
-  const auto& c = *answer.comparison;
-  report::measured_table(c.specimens).write(folder / "measured.csv");
-  report::comparison_table(means, c.measured).write(folder / "comparison.csv");
-  keep(report::plot_measured_profiles(c.simulated, c.measured, folder / "measured.png"));
-  return warnings;
+  std::vector<report::Picture> plots{{report::mean_profile_plot(means), folder / "profile.png"},
+                                     {report::profile_summary_plot(means), folder / "against_compaction.png"}};
+  if (answer.comparison) {
+    const auto& c = *answer.comparison;
+    report::measured_table(c.specimens).write(folder / "measured.csv");
+    report::comparison_table(means, c.measured).write(folder / "comparison.csv");
+    plots.push_back({report::measured_profile_plot(c.simulated, c.measured), folder / "measured.png"});
+  }
+  return report::draw(plots).warnings;
 }
 
 std::string text_of(const ProfileAnswer& answer) {

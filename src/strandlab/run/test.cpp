@@ -25,9 +25,10 @@ std::optional<GapSensitivity> gap_sensitivity(const Panel<2>& panel, vtest::Opti
   const double gap = options.curing.max_gap_mm;
   try {
     const auto change = vtest::gap_sensitivity(panel, options, [&observer] { stop_if_cancelled(observer); });
-    observer.say(fmt::format(
-        "test: compaction {}: glue.max_gap_mm = {} changes moduli by at most {:+.1f} % (1/D_t = {}), {} by {:+.1f} %",
-        compaction, gap / 2, 100 * change.halved, compliances_t[0], gap * 2, 100 * change.doubled));
+    observer.say(
+        fmt::format("test: compaction {}: glue.max_gap_mm = {} changes moduli by at most {:+.1f} % (1/D_t = {:.4g}), "
+                    "{} by {:+.1f} %",
+                    compaction, gap / 2, 100 * change.halved, compliances_t[0], gap * 2, 100 * change.doubled));
     return GapSensitivity{compliances_t[0], change};
   } catch (const statics::OutOfMemory&) {
     throw;
@@ -59,8 +60,8 @@ void tell(const TestedState& state, std::size_t kinds, Observer& observer) {
     const auto& m = result.moduli[i];
     const auto shear_free =
         m.shear_free_modulus_MPa ? fmt::format(" ({:.0f} without shear)", *m.shear_free_modulus_MPa) : "";
-    observer.say(fmt::format("test: compaction {}, {}, 1/D_t = {}: {:.0f} MPa{}", state.compaction, vtest::name(m.kind),
-                             m.compliance_t_mm_per_MPa, m.modulus_MPa, shear_free));
+    observer.say(fmt::format("test: compaction {}, {}, 1/D_t = {:.4g}: {:.0f} MPa{}", state.compaction,
+                             vtest::name(m.kind), m.compliance_t_mm_per_MPa, m.modulus_MPa, shear_free));
   }
 }
 

@@ -29,20 +29,18 @@ void write_plots(Journey& journey, const std::vector<report::PanelModulus>& modu
   fs::create_directories(plots);
   const auto theory = report::theory_moduli(theory_rows(c, journey.formed.mat), moduli, c.off_axis);
   report::theory_table(theory).write(journey.folder.file("theory.csv"));
+  std::vector<report::Picture> pictures;
   for (const auto kind : c.test.kinds) {
     const std::string test = vtest::name(kind);
-    for (const auto& warning :
-         {report::plot_modulus_against_compliance(moduli, test, plots / (test + "_against_compliance.png"),
-                                                  report::theory_against_compliance(theory, test)),
-          report::plot_modulus_against_compaction(moduli, test, plots / (test + "_against_compaction.png"),
-                                                  report::theory_against_compaction(theory, test))}) {
-      if (warning) journey.log.warn(*warning);
-    }
-    stop_if_cancelled(journey.log);
+    pictures.push_back({report::compliance_plot(moduli, test, report::theory_against_compliance(theory, test)),
+                        plots / (test + "_against_compliance.png")});
+    pictures.push_back({report::compaction_plot(moduli, test, report::theory_against_compaction(theory, test)),
+                        plots / (test + "_against_compaction.png")});
   }
+  draw_plots(journey, Step::kTest, pictures);
 }
 
-// Tables that are missing of finished tests follow from the record.
+// Tables and plots that are missing of finished tests follow from the record.
 void restore_tables(Journey& journey, const Tested& tested) {
   auto& folder = journey.folder;
   const auto missing = folder.missing(Step::kTest, journey.formed.c);
@@ -51,6 +49,7 @@ void restore_tables(Journey& journey, const Tested& tested) {
   folder.forget(Step::kPage);
   write_moduli(journey, tested);
   write_plots(journey, moduli_of(journey.formed, tested));
+  folder.save();
 }
 
 // The state's files and its place in the record: tests that are stopped go on behind it.

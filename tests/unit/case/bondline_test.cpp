@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "strandlab/case/case.hpp"
 #include "strandlab/core/error.hpp"
@@ -20,13 +21,13 @@ constexpr const char* kResult =
 class CaseBondline : public testing::Test {
  protected:
   void SetUp() override { put(folder_ / "dls.json", kResult); }
-  Case read(const std::string& glue) {
+  Case read(const std::string& glue, const std::vector<std::string>& overrides = {}) {
     put(folder_ / "panel.toml", "[glue]\n" + glue);
-    return read_case(folder_ / "panel.toml");
+    return read_case(folder_ / "panel.toml", overrides);
   }
-  std::string message(const std::string& glue) {
+  std::string message(const std::string& glue, const std::vector<std::string>& overrides = {}) {
     try {
-      read(glue);
+      read(glue, overrides);
     } catch (const InputError& e) {
       return e.what();
     }
@@ -54,7 +55,10 @@ TEST_F(CaseBondline, WhatDoesNotFitIsNamed) {
   const auto backslash = message("from_bondline = \"C:\\table.json\"\ngroup = \"PF-25\"");  // a tab to TOML
   EXPECT_NE(backslash.find("or single quotes"), std::string::npos) << backslash;
   EXPECT_NE(message("from_bondline = \"dls.json\"").find("needs glue.group"), std::string::npos);
-  EXPECT_NE(message("group = \"PF-25\"").find("needs glue.from_bondline"), std::string::npos);
+  EXPECT_NE(message("group = \"PF-25\"").find("panel.toml:2: glue.group = \"PF-25\": needs glue.from_bondline"),
+            std::string::npos);
+  EXPECT_NE(message("", {"glue.group=PF-25"}).find("--set glue.group=PF-25: glue.group = \"PF-25\": needs"),
+            std::string::npos);
   EXPECT_NE(
       message("from_bondline = \"dls.json\"\ngroup = \"PF-25\"\ncompliance_t_mm_per_MPa = [0.5]").find("contradict"),
       std::string::npos);

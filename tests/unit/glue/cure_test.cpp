@@ -154,6 +154,37 @@ TEST(Cure, NeverGluesThroughAStrandThatOverlaps) {
   EXPECT_NEAR(glued_length(cure(panel, wide)), 40, 1e-9);
 }
 
+// Two strands as near to a third, as where the press pushed one's end through the other's: each place of the third has
+// glue for one of them, the one of the lower number.
+TEST(Cure, GluesAPlaceOnceOnly) {
+  auto panel = panel_of({{0, 0, 20}, {1, 0, 12}, {1, 12, 20}});
+  for (auto& x : panel.strands[2].points.x) x[0] -= 4;
+  double with_first = 0;
+  const auto points = cure(panel, {});
+  for (const auto& p : points) with_first += p.b.strand == 1 ? p.area : 0;
+  EXPECT_NEAR(with_first, 12, 1e-6);
+  EXPECT_NEAR(glued_length(points), 16, 1e-6);
+}
+
+// A strand that stands on the one below by a corner: faces bond where their outward normals are more than 120 degrees
+// apart, here 130 and 110.
+TEST(Cure, BondsFacesThatLookAtEachOther) {
+  CuringOptions wide;
+  wide.max_gap_mm = 0.3;
+  for (const double angle_deg : {50.0, 70.0}) {
+    auto panel = panel_of({{0, 0, 20}, {1, 5, 9}});
+    const double c = std::cos(angle_deg * M_PI / 180), s = std::sin(angle_deg * M_PI / 180);
+    Tensor<2> turn;
+    turn << c, -s, s, c;
+    const Vec<2> corner(5, 0.8);
+    auto& points = panel.strands[1].points;
+    for (auto& x : points.x) x = corner + turn * (x - corner);
+    for (auto& F : points.F) F = turn * F;
+    const double glued = glued_length(cure(panel, wide));
+    EXPECT_EQ(glued > 0.05, angle_deg < 60) << glued << " mm at " << angle_deg;
+  }
+}
+
 // On y = A sin(2 pi x/w) the normal is that of the curve and the areas sum up to its length.
 TEST(Cure, FollowsAnUndulatedLine) {
   auto panel = panel_of({{0, 0, 20}, {1, 0, 20}});

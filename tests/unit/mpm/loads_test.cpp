@@ -242,5 +242,39 @@ TEST(Spring, PullsAlongAndAcrossItsNormal3D) {
   expect_spring_pulls<3>();
 }
 
+// A spring's end moves as the body does where it is: in a body whose velocity grows linearly along an axis from 0 at
+// its middle, by the velocity at the end times dt. The end is half a cell from two nodes, whose velocities differ by
+// twice its own; those near the body's faces are a little off.
+template <int Dim>
+void expect_spring_rides_where_its_end_is() {
+  constexpr int axis = Dim - 2;
+  Vec<Dim> other = Vec<Dim>::Zero();
+  other[0] = 6;
+  std::vector<Body<Dim>> bodies{block_at<Dim>(Vec<Dim>::Zero()), block_at<Dim>(other)};
+  std::array<int, Dim> place{};
+  place.fill(1);
+  place[axis] = 3;
+  const auto particle = static_cast<int>(bodies[1].lattice.point(place));
+  Vec<Dim> offset = Vec<Dim>::Zero();
+  offset[axis] =
+      0.86 + other[axis] - bodies[1].points.x[static_cast<std::size_t>(particle)][axis];  // nodes at .61, 1.11
+  const double rate = 4, middle = other[axis] + 0.61;                                     // 1/s, mm
+  for (std::size_t p = 0; p < bodies[1].points.x.size(); ++p)
+    bodies[1].points.v[p][Dim - 1] = rate * (bodies[1].points.x[p][axis] - middle);
+  Engine<Dim> engine(bodies, open_grid<Dim>(), {});
+  const double area = 0.7, k = 20;
+  engine.set_springs({{{0, 3, Vec<Dim>::Zero()}, {1, particle, offset}, Vec<Dim>::Unit(0), area, k, k}});
+  engine.step();
+  const double jump = engine.state().time_step_s * rate * 0.25;
+  EXPECT_NEAR(std::sqrt(engine.spring_energy() / (0.5 * area * k)) / jump, 1, 0.1);
+}
+
+TEST(Spring, RidesWhereItsEndIs2D) {
+  expect_spring_rides_where_its_end_is<2>();
+}
+TEST(Spring, RidesWhereItsEndIs3D) {
+  expect_spring_rides_where_its_end_is<3>();
+}
+
 }  // namespace
 }  // namespace strandlab::mpm

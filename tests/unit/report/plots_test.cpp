@@ -1,8 +1,10 @@
 #include "strandlab/report/plots.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/report/gnuplot.hpp"
@@ -28,27 +30,56 @@ std::vector<PanelModulus> moduli() {
   return all;
 }
 
-void expect_picture(const Warning& warning, const std::filesystem::path& png) {
-  EXPECT_EQ(warning, std::nullopt) << *warning;
-  EXPECT_EQ(test::contents(png).substr(0, 4), kPngSignature);
+Plot line() {
+  return {"", "", "", "", CurveStyle::kLines, 0, 1, {{"", {0, 1}, {0, 1}}}, {}};
 }
 
+std::string only_warning(const Drawn& drawn) {
+  EXPECT_TRUE(drawn.pictures.empty());
+  return drawn.warnings.size() == 1 ? drawn.warnings.front() : fmt::format("{} warnings", drawn.warnings.size());
+}
+
+// One gnuplot draws all; each file holds what a gnuplot of its own draws of it.
 TEST(Plots, ArePngFiles) {
   const TemporaryFolder folder;
   std::vector<press::Record> records(3);
   records[1].compaction = 0.1;
   records[1].stress_MPa = 2;
-  expect_picture(plot_stress(records, folder / "stress.png"), folder / "stress.png");
-  expect_picture(plot_modulus_against_compliance(moduli(), "tension", folder / "d.png"), folder / "d.png");
-  expect_picture(plot_modulus_against_compaction(moduli(), "tension", folder / "c.png"), folder / "c.png");
   const Curve reference{"rule of mixtures", {1, 1.6}, {7000, 11200}}, one_point{"shear-lag", {1}, {7100}};
-  expect_picture(plot_modulus_against_compaction(moduli(), "tension", folder / "r.png", {reference, one_point}),
-                 folder / "r.png");
   auto panel = test::reference_panel("osb_s1");
   test::undulate(panel, 0.2, 12);
-  expect_picture(plot_grain_angles({morphology(panel, 0)}, folder / "a.png"), folder / "a.png");
-  expect_picture(plot_thickness_strains({morphology(panel, 0)}, folder / "t.png"), folder / "t.png");
+  const std::vector<Picture> pictures{{stress_plot(records), folder / "stress.png"},
+                                      {compliance_plot(moduli(), "tension"), folder / "d.png"},
+                                      {compaction_plot(moduli(), "tension"), folder / "c.png"},
+                                      {compaction_plot(moduli(), "tension", {reference, one_point}), folder / "r.png"},
+                                      {grain_angle_plot({morphology(panel, 0)}), folder / "a.png"},
+                                      {thickness_strain_plot({morphology(panel, 0)}), folder / "t.png"}};
+  const auto drawn = draw(pictures);
+  EXPECT_TRUE(drawn.warnings.empty()) << drawn.warnings.front();
+  EXPECT_EQ(drawn.pictures.size(), pictures.size());
+  for (const auto& picture : pictures) {
+    const auto together = test::contents(picture.png);
+    EXPECT_EQ(together.substr(0, 4), kPngSignature);
+    EXPECT_TRUE(draw({picture}).warnings.empty());
+    EXPECT_EQ(test::contents(picture.png), together) << picture.png;
+  }
   EXPECT_EQ(folder.files(), 6U);  // no scripts are left
+}
+
+// gnuplot goes on behind a mistake, and no picture goes into the file of another.
+TEST(Plots, AMistakeCostsItsOwnPictureOnly) {
+  const TemporaryFolder folder;
+  const auto good = gnuplot_script(line());
+  const auto drawn =
+      draw_scripts({{good, folder / "a.png"}, {"plot nonsense\n", folder / "b.png"}, {good, folder / "c.png"}});
+  ASSERT_EQ(drawn.warnings.size(), 1U);
+  EXPECT_NE(drawn.warnings[0].find("no picture " + (folder / "b.png").string() + ": gnuplot failed: "),
+            std::string::npos)
+      << drawn.warnings[0];
+  EXPECT_NE(drawn.warnings[0].find("nonsense"), std::string::npos) << drawn.warnings[0];
+  EXPECT_EQ(drawn.pictures, (std::vector<std::filesystem::path>{folder / "a.png", folder / "c.png"}));
+  EXPECT_EQ(test::contents(folder / "a.png"), test::contents(folder / "c.png"));
+  EXPECT_EQ(folder.files(), 2U);
 }
 
 TEST(Plots, ScriptHoldsTheNumbersAndTheNames) {
@@ -80,69 +111,78 @@ TEST(Plots, ReferencesAreDashedLinesOverTheCurvesWithOneKeyEntryPerName) {
 
 TEST(Plots, ReferencesAloneAreNoResult) {
   const TemporaryFolder folder;
-  const auto warning =
-      plot_modulus_against_compliance({}, "tension", folder / "a.png", {{"rule of mixtures", {0, 1}, {7000, 7000}}});
-  ASSERT_TRUE(warning.has_value());
-  EXPECT_NE(warning->find("nothing to plot"), std::string::npos);
+  const auto plot = compliance_plot({}, "tension", {{"rule of mixtures", {0, 1}, {7000, 7000}}});
+  EXPECT_NE(only_warning(draw({{plot, folder / "a.png"}})).find("nothing to plot"), std::string::npos);
 }
 
 TEST(Plots, WithoutGnuplotTheRunGoesOnAndSaysSo) {
   const TemporaryFolder folder;
-  const Plot plot{"", "", "", "", CurveStyle::kLines, 0, 1, {{"", {0, 1}, {0, 1}}}, {}};
-  const auto warning = draw(plot, folder / "a.png", {"no_such_gnuplot"});
-  ASSERT_TRUE(warning.has_value());
-  EXPECT_EQ(*warning,
-            "no picture " + (folder / "a.png").string() +
-                ": cannot start no_such_gnuplot (No such file or directory); install the package gnuplot-nox to "
-                "get plots");
+  const auto warning =
+      only_warning(draw({{line(), folder / "a.png"}, {line(), folder / "b.png"}}, {"no_such_gnuplot"}));
+  EXPECT_EQ(warning, "no picture " + (folder / "a.png").string() + ", " + (folder / "b.png").string() +
+                         ": cannot start no_such_gnuplot (No such file or directory); install the package gnuplot-nox "
+                         "to get plots");
   EXPECT_EQ(folder.files(), 0U);
 }
 
 TEST(Plots, FailingGnuplotIsReported) {
   const TemporaryFolder folder;
-  const Plot plot{"", "", "", "", CurveStyle::kLines, 0, 1, {{"", {0, 1}, {0, 1}}}, {}};
-  const auto warning = draw(plot, folder / "a.png", {"false"});
-  ASSERT_TRUE(warning.has_value());
-  EXPECT_NE(warning->find("false failed"), std::string::npos);
+  EXPECT_NE(only_warning(draw({{line(), folder / "a.png"}}, {"false"})).find("false failed"), std::string::npos);
   EXPECT_EQ(folder.files(), 0U);
 }
 
 // A program that never ends, one that hides behind a program of its own, and one that closes its output and goes on.
 TEST(Plots, AGnuplotThatHangsIsEnded) {
   const TemporaryFolder folder;
-  const Plot plot{"", "", "", "", CurveStyle::kLines, 0, 1, {{"", {0, 1}, {0, 1}}}, {}};
   for (const auto* what : {"exec sleep 600", "sleep 600; :", "exec >&- 2>&-; sleep 600"}) {
     const auto program = folder / "hangs";
     test::put(program, std::string("#!/bin/sh\n") + what + "\n");
     std::filesystem::permissions(program, std::filesystem::perms::owner_all);
-    const auto warning = draw(plot, folder / "a.png", {program.string(), 0.05});
-    ASSERT_TRUE(warning.has_value()) << what;
-    EXPECT_NE(warning->find("was not done after 0.05 s"), std::string::npos) << *warning;
+    const auto warning = only_warning(draw({{line(), folder / "a.png"}}, {program.string(), 0.05}));
+    EXPECT_NE(warning.find("was not done after 0.05 s"), std::string::npos) << what << ": " << warning;
     EXPECT_EQ(folder.files(), 1U) << what;
   }
+}
+
+// A PNG whose one chunk of data is that long (Portable Network Graphics, W3C 2003, 5.2 and 5.3), without checksums.
+std::string png_of(std::size_t length) {
+  const auto chunk = [](const std::string& name, std::size_t bytes) {
+    std::string text;
+    for (int shift = 24; shift >= 0; shift -= 8) text += static_cast<char>(bytes >> static_cast<unsigned>(shift));
+    return text + name + std::string(bytes, 'x') + "sums";
+  };
+  return "\x89PNG\r\n\x1a\n" + chunk("IDAT", length) + chunk("IEND", 0);
 }
 
 // The script reaches the program by its standard input, whole; what it prints is the picture.
 TEST(Plots, TheScriptIsNoFileThatAnotherRunCouldTake) {
   const TemporaryFolder folder;
-  std::string script = "plot";
-  script.append(1 << 20, 'x');
-  EXPECT_FALSE(draw_script(script, folder / "a.png", {"cat"}).has_value());
+  const auto script = png_of(1 << 20);
+  EXPECT_TRUE(draw_scripts({{script, folder / "a.png"}}, {"cat"}).warnings.empty());
   EXPECT_EQ(test::contents(folder / "a.png"), script);
   EXPECT_EQ(folder.files(), 1U);
 }
 
+// A gnuplot that dies while it prints: half a picture is none.
+TEST(Plots, APictureThatWasBegunOnlyIsMissing) {
+  const TemporaryFolder folder;
+  const auto whole = png_of(1000);
+  for (const std::size_t length : {0U, 4U, 12U, 500U}) {
+    const auto drawn = draw_scripts({{whole.substr(0, length), folder / "a.png"}}, {"cat"});
+    EXPECT_NE(only_warning(drawn).find("cat failed"), std::string::npos) << length;
+  }
+  EXPECT_EQ(folder.files(), 0U);
+}
+
 TEST(Plots, NothingToPlotIsSaid) {
   const TemporaryFolder folder;
-  const auto warning = plot_modulus_against_compliance(moduli(), "bending_end_couple", folder / "a.png");
-  ASSERT_TRUE(warning.has_value());
-  EXPECT_NE(warning->find("nothing to plot"), std::string::npos);
+  const auto plot = compliance_plot(moduli(), "bending_end_couple");
+  EXPECT_NE(only_warning(draw({{plot, folder / "a.png"}})).find("nothing to plot"), std::string::npos);
 }
 
 TEST(Plots, FolderThatIsMissingIsBadInput) {
   const TemporaryFolder folder;
-  EXPECT_THROW(static_cast<void>(plot_modulus_against_compliance(moduli(), "tension", folder / "none" / "a.png")),
-               InputError);
+  EXPECT_THROW(static_cast<void>(draw({{line(), folder / "none" / "a.png"}})), InputError);
 }
 
 TEST(ResultTables, HaveTheColumnsScriptsRelyOn) {

@@ -154,13 +154,16 @@ TEST(RunFolder, SaysWhatIsMissing) {
   auto c = with("press.compactions=[0, .1]");
   c.schedule.compactions = c.states.compactions;
   make_finished(folder / "run", c);
-  const RunFolder run(folder / "run", c, cases::Step::kMat, false, kSmall);
+  RunFolder run(folder / "run", c, cases::Step::kMat, false, kSmall);
   EXPECT_EQ(run.missing(cases::Step::kMat, c), std::vector<std::string>{});
   EXPECT_EQ(run.missing(cases::Step::kPress, c),
             (std::vector<std::string>{"morphology.csv", "histograms.csv", "profile.csv", "profile_summary.csv",
-                                      "panels/panel_0.1.h5"}));
+                                      "pictures/grain_angle_0.png", "pictures/density_0.png", "panels/panel_0.1.h5",
+                                      "pictures/grain_angle_0.1.png", "pictures/density_0.1.png"}));
+  run.add_plots(cases::Step::kTest, {run.file("plots") / "tension.png"});
+  EXPECT_EQ(run.missing(cases::Step::kTest, c), std::vector<std::string>{"plots/tension.png"});
   std::filesystem::remove(run.file("moduli.csv"));
-  EXPECT_EQ(run.missing(cases::Step::kTest, c), std::vector<std::string>{"moduli.csv"});
+  EXPECT_EQ(run.missing(cases::Step::kTest, c), (std::vector<std::string>{"moduli.csv", "plots/tension.png"}));
 }
 
 TEST(RunFolder, RemovesWhatAKillLeftHalfWritten) {
