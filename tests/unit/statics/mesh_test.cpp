@@ -6,6 +6,7 @@
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/statics/stiffness.hpp"
+#include "unit/statics/bonds.hpp"
 
 namespace strandlab::statics {
 namespace {
@@ -115,7 +116,7 @@ TEST(Springs, DoNotFeelARigidMotion) {
   const auto mesh = make_mesh(panel, {true, true}, 3);
   const PanelStiffness stiffness(mesh, make_springs(mesh, glue::cure(panel, {}), end_nodes(mesh)));
   const auto u = sample(mesh, rigid);
-  EXPECT_LT(stiffness.glue_energy(u, {100, 100}), 1e-24);
+  EXPECT_LT(stiffness.glue_energy(u, everywhere(stiffness, {100, 100})), 1e-24);
   // Round-off of sums of K u^2 ~ 1e4 N/mm x (0.3 mm)^2, of either sign; a strain of 1e-3 would store 0.1 mJ.
   EXPECT_NEAR(stiffness.wood_energy(u), 0, 1e-9);
 }
@@ -130,8 +131,8 @@ TEST(Springs, StoreTheEnergyOfAJump) {
     slip[2 * n] = 0.01;
     opening[2 * n + 1] = 0.01;
   }
-  EXPECT_NEAR(stiffness.glue_energy(slip, {70, 300}), 0.5 * 70 * 1e-4 * 13.37, 1e-9);
-  EXPECT_NEAR(stiffness.glue_energy(opening, {70, 300}), 0.5 * 300 * 1e-4 * 13.37, 1e-9);
+  EXPECT_NEAR(stiffness.glue_energy(slip, everywhere(stiffness, {70, 300})), 0.5 * 70 * 1e-4 * 13.37, 1e-9);
+  EXPECT_NEAR(stiffness.glue_energy(opening, everywhere(stiffness, {70, 300})), 0.5 * 300 * 1e-4 * 13.37, 1e-9);
 }
 
 // Energy by elements and springs is u.K u/2 of the assembled matrix.
@@ -142,10 +143,10 @@ TEST(PanelStiffness, AssemblesWhatItsEnergySays) {
   const auto u =
       sample(mesh, [](const Vec<2>& x) { return Vec<2>(0.01 * std::sin(x[0] + 3 * x[1]), 0.02 * std::cos(2 * x[0])); });
   const glue::BondStiffness glue{70, 300};
-  const auto force = multiply(stiffness.with(glue), u);
+  const auto force = multiply(stiffness.with(everywhere(stiffness, glue)), u);
   double work = 0;
   for (std::size_t i = 0; i < u.size(); ++i) work += 0.5 * force[i] * u[i];
-  EXPECT_NEAR(work / (stiffness.wood_energy(u) + stiffness.glue_energy(u, glue)), 1, 1e-12);
+  EXPECT_NEAR(work / (stiffness.wood_energy(u) + stiffness.glue_energy(u, everywhere(stiffness, glue))), 1, 1e-12);
 }
 
 // Where both faces end on a plane that is turned as a whole, u_x = -theta y, a thick glue line is at rest whatever the
