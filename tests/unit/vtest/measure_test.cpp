@@ -41,6 +41,23 @@ std::string message_of(const std::function<void()>& action) {
   return "no InputError";
 }
 
+// Bonds of half their strength at 1/D_t = .01 are those of .01/.5 + (1/.5 - 1) .0105 = .0305 fully cured, and a perfect
+// bond of half its strength is one of .0105.
+TEST(Measure, TakesBondsAsFarAsTheyHaveCured) {
+  const auto whole = panel_with({{0, 0, 12.4}, {1, 7.1, 20}});
+  auto half = whole;
+  for (auto& strand : half.strands) strand.points.bond_quality.assign(strand.size(), .5);
+  Options options;
+  options.kinds = {Kind::kTension};
+  options.compliance_t_mm_per_MPa = {.01, 0};
+  const auto given = measure(half, options);
+  options.compliance_t_mm_per_MPa = {.0305, .0105};
+  const auto expected = measure(whole, options);
+  ASSERT_EQ(given.moduli.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(given.moduli[i].modulus_MPa / expected.moduli[i].modulus_MPa, 1, 1e-9);
+}
+
 TEST(Kind, HasANameThatLeadsBack) {
   for (const Kind kind : {Kind::kTension, Kind::kBendingEndRotation, Kind::kBendingEndCouple, Kind::kBending3Point,
                           Kind::kBending4Point}) {
