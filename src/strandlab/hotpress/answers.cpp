@@ -182,6 +182,7 @@ class Replay final : public MatMechanics {
   std::vector<double> thickness() const override {
     std::vector<double> all;
     const auto& cells = now().cells;
+    all.reserve(cells.size());
     for (const auto& cell : cells)
       all.push_back(cycle_.mat.dry_mass / static_cast<double>(cells.size()) / cell.density);
     return all;

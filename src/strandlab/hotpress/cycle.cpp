@@ -73,6 +73,7 @@ enum class Faces { kPlatens, kBottomPlaten, kOpen };
 
 std::vector<Layer> layers_of(const std::vector<CellWood>& wood) {
   std::vector<Layer> all;
+  all.reserve(wood.size());
   for (const auto& cell : wood) all.push_back(layer_of(*cell.material, cell.thickness));
   return all;
 }

@@ -71,7 +71,9 @@ std::string others(const Json& object, const Keys& known) {
 int dimensions(const Json& mat, const std::string& source) {
   if (!mat.is_object() || !mat.contains("dim")) return 2;
   const Json& dim = mat["dim"];
-  if (dim == 2 || dim == 3) return dim.get<int>();
+  for (const int known : {2, 3}) {
+    if (dim == known) return known;
+  }
   reject(source, fmt::format("dim = {} must be 2 (a section mat; also without this key) or 3 (the mat of a plate)",
                              shown(dim)));
 }

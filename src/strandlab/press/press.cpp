@@ -347,7 +347,8 @@ class Press {
 }  // namespace
 
 double Record::balance_error() const {
-  const double terms = kinetic_mJ + elastic_mJ + plastic_mJ + friction_mJ + contact_mJ + filter_mJ + softening_mJ + damping_mJ;
+  const double terms =
+      kinetic_mJ + elastic_mJ + plastic_mJ + friction_mJ + contact_mJ + filter_mJ + softening_mJ + damping_mJ;
   return platen_work_mJ != 0 ? (platen_work_mJ - terms) / platen_work_mJ : 0;
 }
 
