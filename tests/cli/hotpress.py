@@ -142,6 +142,9 @@ def a_hot_run():
     other = strandlab("run", "hot.toml", "-o", "strands", *settings, "--set", "hotpress.moisture_face=0.1")
     check(other.returncode == BAD_INPUT, "another cycle is another case")
     expect_bad_input(["hotpress", "hot.toml", "-o", "strands"], ["holds the panels of strandlab run"])
+    write("pressure.csv", "Time (s),Pressure (MPa)\n0,0\n10,3\n60,0\n")
+    write("pressure.toml", CASE + '[hotpress.log]\nfile = "pressure.csv"\n')
+    expect_bad_input(["run", "pressure.toml", "-o", "by_pressure"], ["pressure.csv", "without positions", 'hotpress.mechanics = "column"'])
 
 
 def logs():

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <cstddef>
-#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
+#include "strandlab/core/error.hpp"
+
 namespace strandlab {
 
-// One function visits the numbers of a state for both ways: numbers(x) writes x, or reads it.
+// One function visits the numbers of a state for both ways: numbers(x) writes x, or reads it. Throws InputError for a
+// list that is too short for what is read.
 class Numbers {
  public:
   Numbers() = default;                                                                      // to write
@@ -27,12 +29,15 @@ class Numbers {
     }
   }
 
-  // Any list with resize(): its length, then each of its elements by `visit(element)`.
+  // Any list with resize(): its length, then each of its elements, of one number or more, by `visit(element)`.
   template <class List, class Visit>
   void each(List& list, const Visit& visit) {
-    auto count = list.size();
+    auto count = static_cast<double>(list.size());
     (*this)(count);
-    if (reads_) list.resize(count);
+    if (reads_) {
+      if (!(count >= 0 && count <= static_cast<double>(list_.size() - at_))) refuse();
+      list.resize(static_cast<std::size_t>(count));
+    }
     for (auto& element : list) visit(element);
   }
   template <class Number>
@@ -42,9 +47,10 @@ class Numbers {
 
  private:
   double next() {
-    if (at_ == list_.size()) throw std::out_of_range("a state of too few numbers");
+    if (at_ == list_.size()) refuse();
     return list_[at_++];
   }
+  [[noreturn]] static void refuse() { throw InputError("a stored state has not the numbers that it should have"); }
 
   bool reads_ = false;
   std::vector<double> list_;

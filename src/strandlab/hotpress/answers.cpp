@@ -177,7 +177,8 @@ class Replay final : public MatMechanics {
   Moved move(const Move& /*move*/, const std::vector<transfer::CellState>& /*state*/, double /*seconds*/) override {
     moves_ = std::min(moves_ + 1, cycle_.record.size());
     const auto& now = this->now();
-    return {now.phase != "open" || now.pressure > 0, now.phase == "close" && now.mark.empty(), false};
+    const bool closes = now.phase == "close", ends = !now.mark.empty();
+    return {now.phase != "open" || now.pressure > 0, closes && !ends, closes && ends};
   }
   std::vector<double> thickness() const override {
     std::vector<double> all;

@@ -488,7 +488,9 @@ class Press {
   static void visit_word(Numbers& numbers, std::string& word, std::span<const char* const> words) {
     auto index = std::find(words.begin(), words.end(), word) - words.begin();
     numbers(index);
-    if (numbers.reads()) word = words[static_cast<std::size_t>(index)];
+    if (!numbers.reads()) return;
+    if (index < 0 || index >= std::ssize(words)) throw InputError("a stored cycle names no phase of a press");
+    word = words[static_cast<std::size_t>(index)];
   }
   static void visit_instant(Numbers& numbers, Instant& at) {
     static constexpr std::array kPhases{"lead", "close", "hold", "vent", "open"};

@@ -2,22 +2,17 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 namespace strandlab::hotpress {
-namespace {
 
-std::pair<std::vector<double>, std::vector<double>> factors(const Softening& softening,
-                                                            const std::vector<transfer::CellState>& state) {
-  std::vector<double> e, g;
+CellFactors factors_of(const Softening& softening, const std::vector<transfer::CellState>& state) {
+  CellFactors factors;
   for (const auto& cell : state) {
-    e.push_back(stiffness_factor(softening, cell.T, cell.M));
-    g.push_back(yield_factor(softening, cell.T, cell.M));
+    factors.stiffness.push_back(stiffness_factor(softening, cell.T, cell.M));
+    factors.yield.push_back(yield_factor(softening, cell.T, cell.M));
   }
-  return {e, g};
+  return factors;
 }
-
-}  // namespace
 
 double MatMechanics::longest_step(double /*closing*/) const {
   return std::numeric_limits<double>::infinity();
@@ -27,7 +22,7 @@ ColumnMechanics::ColumnMechanics(const std::vector<Layer>& layers, wood::RateEff
     : column_(layers, rate), softening_(softening) {}
 
 void ColumnMechanics::condition(const std::vector<transfer::CellState>& state) {
-  const auto [e, g] = factors(softening_, state);
+  const auto [e, g] = factors_of(softening_, state);
   column_.condition(e, g);
 }
 
@@ -43,7 +38,7 @@ Moved ColumnMechanics::load(const Move& move, double seconds) {
 
 // The platens push and never pull; without them the gas stretches the wood.
 Moved ColumnMechanics::move(const Move& move, const std::vector<transfer::CellState>& state, double seconds) {
-  const auto [e, g] = factors(softening_, state);
+  const auto [e, g] = factors_of(softening_, state);
   column_.soften(e, g);
   if (move.by_pressure) return load(move, seconds);
   const auto before = column_;

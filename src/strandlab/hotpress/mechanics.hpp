@@ -47,6 +47,12 @@ class MatMechanics {
   virtual void visit(Numbers& numbers) = 0;           // its state
 };
 
+// Factors of stiffness and of yield of the cells.
+struct CellFactors {
+  std::vector<double> stiffness, yield;
+};
+CellFactors factors_of(const Softening& softening, const std::vector<transfer::CellState>& state);
+
 // A column of layers in series (column.hpp).
 class ColumnMechanics : public MatMechanics {
  public:

@@ -68,7 +68,7 @@ void StrandMechanics::start() {
 void StrandMechanics::condition(const std::vector<transfer::CellState>& state) {
   if (conditioned_) return;
   conditioned_ = true;
-  from_ = to_ = factors_of(state);
+  from_ = to_ = factors_of_points(state);
   for (std::size_t s = 0; s < panel_.strands.size(); ++s) {
     panel_.strands[s].points.stiffness_factor = to_.stiffness[s];
     panel_.strands[s].points.yield_factor = to_.yield[s];
@@ -152,7 +152,7 @@ double between_cells(std::size_t cells, double place, const Of& of) {
 
 }  // namespace
 
-StrandMechanics::Factors StrandMechanics::factors_of(const std::vector<transfer::CellState>& state) const {
+StrandMechanics::Factors StrandMechanics::factors_of_points(const std::vector<transfer::CellState>& state) const {
   Factors factors;
   const auto place = places();
   std::size_t n = 0;
@@ -181,37 +181,28 @@ void StrandMechanics::soften(double part) {
 }
 
 bool StrandMechanics::due(const Move& move, const std::vector<transfer::CellState>& state) const {
-  if (move.last || stiffness_.empty()) return true;
+  if (move.last || last_.stiffness.empty()) return true;
   if (move.by_pressure) {
     const bool closing = !at_stop_ && move.stop > 0;
     if (closing || std::abs(std::max(0., move.stress) - wanted_) > kDuePressure * held_) return true;
   } else if (kMm * gap() - move.height > 1e-9 * move.height) {
     return true;
   }
-  std::vector<double> e, g;
-  for (const auto& cell : state) {
-    e.push_back(stiffness_factor(how_.softening, cell.T, cell.M));
-    g.push_back(yield_factor(how_.softening, cell.T, cell.M));
-  }
-  return std::max(change(stiffness_, e), change(yield_, g)) > how_.due;
+  const auto now = factors_of(how_.softening, state);
+  return std::max(change(last_.stiffness, now.stiffness), change(last_.yield, now.yield)) > how_.due;
 }
 
 Moved StrandMechanics::move(const Move& move, const std::vector<transfer::CellState>& state, double seconds) {
   waiting_ += seconds;
   if (!due(move, state)) return {true, limited_, at_stop_};
-  stiffness_.clear();
-  yield_.clear();
-  for (const auto& cell : state) {
-    stiffness_.push_back(stiffness_factor(how_.softening, cell.T, cell.M));
-    yield_.push_back(yield_factor(how_.softening, cell.T, cell.M));
+  last_ = factors_of(how_.softening, state);
+  from_ = {};
+  for (const auto& strand : panel_.strands) {
+    from_.stiffness.push_back(strand.points.stiffness_factor);
+    from_.yield.push_back(strand.points.yield_factor);
   }
-  for (std::size_t s = 0; s < panel_.strands.size(); ++s) {
-    from_.stiffness.resize(panel_.strands.size());
-    from_.yield.resize(panel_.strands.size());
-    from_.stiffness[s] = panel_.strands[s].points.stiffness_factor;
-    from_.yield[s] = panel_.strands[s].points.yield_factor;
-  }
-  to_ = factors_of(state);
+  to_ = factors_of_points(state);
+  stage_ = 0;
   sum_s_ = sum_top_ = sum_bottom_ = 0;
   const bool opens = !move.by_pressure && move.height > kMm * gap() * (1 + 1e-9);
   if (!move.by_pressure && kMm * gap() - move.height > 1e-9 * move.height) {
@@ -236,12 +227,25 @@ void StrandMechanics::step(double closing_mm_s, double seconds_per_second) {
   engine_->step();
 }
 
+// Part of an exchange that is done: the points' factors have come to the next over its first half.
+void StrandMechanics::soften_by(double done) {
+  const int reached = std::min(static_cast<int>(2 * kRampStages * done), kRampStages);
+  if (reached <= stage_) return;
+  stage_ = reached;
+  soften(static_cast<double>(stage_) / kRampStages);
+}
+
+void StrandMechanics::feel(double seconds) {
+  sum_s_ += seconds;
+  sum_top_ += engine_->top_force() * seconds;
+  sum_bottom_ += engine_->bottom_force() * seconds;
+}
+
 // The platens go on at their speed from one exchange to the next, and come to rest at the final height.
 void StrandMechanics::close(const Move& move, double seconds) {
   const double from = gap(), to = move.height / kMm, final_gap = move.final_height / kMm;
   const double full = how_.speed_m_s / kMm, way = panel_.initial_thickness_mm - final_gap;
   const double gain = full * full / (2 * kSpeedUp * way), loss = full * full / (2 * kSlowDown * way);
-  int stage = 0;
   limited_ = at_stop_ = false;
   while (gap() > to) {
     const double dt = engine_->state().time_step_s;
@@ -250,16 +254,10 @@ void StrandMechanics::close(const Move& move, double seconds) {
     velocity_ = std::max(velocity_, kSlowest * full);
     if (to <= final_gap) velocity_ = std::min(velocity_, (gap() - to) / dt * (1 + 1e-12));
     step(velocity_, seconds * velocity_ / (from - to));
-    sum_s_ += dt;
-    sum_top_ += engine_->top_force() * dt;
-    sum_bottom_ += engine_->bottom_force() * dt;
-    const auto reached = static_cast<int>(2 * kRampStages * (from - gap()) / (from - to));
-    if (reached > stage && stage < kRampStages) {
-      stage = std::min(reached, kRampStages);
-      soften(static_cast<double>(stage) / kRampStages);
-    }
+    feel(dt);
+    soften_by((from - gap()) / (from - to));
   }
-  if (stage < kRampStages) soften(1);
+  soften_by(1);
   if (to <= final_gap) velocity_ = 0;
   by_pressure_ = false;
 }
@@ -272,7 +270,6 @@ void StrandMechanics::settle(const Move& move, double seconds) {
   const double least = std::max(move.stop, kMm * gap() - move.fastest * seconds) / kMm;  // mm
   const double wanted = std::max(0., move.stress) / kMPa;
   const double area = panel_.length_mm * panel_.depth_mm;
-  int stage = 0;
   for (int n = 1;; ++n) {
     const double passed = engine_->state().time_s - begin, dt = engine_->state().time_step_s;
     if (passed >= time) break;
@@ -290,16 +287,8 @@ void StrandMechanics::settle(const Move& move, double seconds) {
     now_ = .5 * (engine_->top_force() + engine_->bottom_force()) / area;
     filtered_ += (now_ - filtered_) * std::min(1., dt / (kFiltered * wave));
     if (n % kDampedSteps == 0) engine_->scale_velocities(std::exp(-damping * kDampedSteps * dt));
-    if (passed > (1 - kRead) * time) {
-      sum_s_ += dt;
-      sum_top_ += engine_->top_force() * dt;
-      sum_bottom_ += engine_->bottom_force() * dt;
-    }
-    const auto reached = static_cast<int>(2 * kRampStages * passed / time);
-    if (reached > stage && stage < kRampStages) {
-      stage = std::min(reached, kRampStages);
-      soften(static_cast<double>(stage) / kRampStages);
-    }
+    if (passed > (1 - kRead) * time) feel(dt);
+    soften_by(passed / time);
   }
   velocity_ = 0;
   wanted_ = kMPa * wanted;
@@ -318,16 +307,7 @@ void StrandMechanics::record() {
   r.stress_MPa = mean / (panel_.length_mm * panel_.depth_mm);
   stress_ = kMPa * r.stress_MPa;
   if (!by_pressure_) held_ = wanted_ = stress_;
-  const auto e = engine_->energies();
-  r.kinetic_mJ = e.kinetic;
-  r.elastic_mJ = e.elastic;
-  r.plastic_mJ = e.plastic;
-  r.friction_mJ = e.friction;
-  r.contact_mJ = e.contact;
-  r.filter_mJ = e.filter;
-  r.softening_mJ = e.softening;
-  r.damping_mJ = e.damping;
-  r.platen_work_mJ = e.platen_work;
+  press::set_energies(r, engine_->energies());
 
   records_.push_back(r);
 }
@@ -364,8 +344,8 @@ press::Checkpoint<2> StrandMechanics::checkpoint() const {
 
 void StrandMechanics::visit(Numbers& numbers) {
   numbers(thickness_);
-  numbers(stiffness_);
-  numbers(yield_);
+  numbers(last_.stiffness);
+  numbers(last_.yield);
   for (auto* number : {&stress_, &waiting_, &velocity_, &wanted_, &held_, &filtered_, &now_}) numbers(*number);
   numbers(by_pressure_);
   numbers(limited_);

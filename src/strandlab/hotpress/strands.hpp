@@ -28,8 +28,8 @@ struct StrandPress {
 
 class StrandMechanics final : public MatMechanics {
  public:
-  // The mat as formed, its strands of crushing or of Hill's wood. Throws InputError for strands that are softened
-  // already (StrandKind: yield_factor, stiffness_factor): heat does that here.
+  // The mat as formed, its strands of crushing or of Hill's wood. Throws InputError for strands whose stiffness is
+  // softened already (StrandKind::stiffness_factor): heat does that here.
   StrandMechanics(const Panel<2>& mat, const StrandPress& how);
   // Goes on from a checkpoint, whose engine and panel it takes; visit() then brings the rest.
   StrandMechanics(const press::Checkpoint<2>& checkpoint, const StrandPress& how);
@@ -60,10 +60,12 @@ class StrandMechanics final : public MatMechanics {
   double gap() const;                  // mm
   double transit() const;              // s, of a wave through the mat as formed
   std::vector<double> places() const;  // of all points: mass below over all, times cells
-  Factors factors_of(const std::vector<transfer::CellState>& state) const;
+  Factors factors_of_points(const std::vector<transfer::CellState>& state) const;
   void start();
   void soften(double part);  // of the way to the next factors
-  void read();               // panel and layers from the engine
+  void soften_by(double done);
+  void feel(double seconds);  // adds to the impulses
+  void read();                // panel and layers from the engine
   void step(double closing_mm_s, double seconds_per_second);
   void close(const Move& move, double seconds);
   void settle(const Move& move, double seconds);
@@ -74,9 +76,10 @@ class StrandMechanics final : public MatMechanics {
   Panel<2> panel_;
   std::optional<mpm::Engine<2>> engine_;
   bool conditioned_ = false;
-  std::vector<double> thickness_;          // m, by cell
-  double stress_ = 0;                      // Pa
-  std::vector<double> stiffness_, yield_;  // factors by cell at the last exchange
+  std::vector<double> thickness_;  // m, by cell
+  double stress_ = 0;              // Pa
+  CellFactors last_;               // at the last exchange
+  int stage_ = 0;                  // of the way from those factors to the next
   Factors from_, to_;
   double waiting_ = 0;   // s of the press since the last exchange
   double velocity_ = 0;  // mm/s, of closing

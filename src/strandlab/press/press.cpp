@@ -183,14 +183,7 @@ class Press {
     r.stress_MPa = 0.5 * (r.force_top_N + r.force_bottom_N) / area;
     r.compaction = compaction();
     r.time_ms = 1e3 * engine_->state().time_s;
-    const auto e = engine_->energies();
-    r.kinetic_mJ = e.kinetic;
-    r.elastic_mJ = e.elastic;
-    r.plastic_mJ = e.plastic;
-    r.friction_mJ = e.friction;
-    r.contact_mJ = e.contact;
-    r.filter_mJ = e.filter;
-    r.platen_work_mJ = e.platen_work;
+    set_energies(r, engine_->energies());
     if (r.compaction >= judged_from_ && r.internal_mJ() > 0) {
       state_.worst_kinetic = std::max(state_.worst_kinetic, engine_->mean_motion_energy() / r.internal_mJ());
     }
@@ -350,6 +343,18 @@ double Record::balance_error() const {
   const double terms =
       kinetic_mJ + elastic_mJ + plastic_mJ + friction_mJ + contact_mJ + filter_mJ + softening_mJ + damping_mJ;
   return platen_work_mJ != 0 ? (platen_work_mJ - terms) / platen_work_mJ : 0;
+}
+
+void set_energies(Record& record, const mpm::Energies& e) {
+  record.kinetic_mJ = e.kinetic;
+  record.elastic_mJ = e.elastic;
+  record.plastic_mJ = e.plastic;
+  record.friction_mJ = e.friction;
+  record.contact_mJ = e.contact;
+  record.filter_mJ = e.filter;
+  record.softening_mJ = e.softening;
+  record.damping_mJ = e.damping;
+  record.platen_work_mJ = e.platen_work;
 }
 
 double judged_from(const Schedule& schedule) {

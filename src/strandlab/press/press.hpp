@@ -43,6 +43,9 @@ struct Record {
   double balance_error() const;  // (work - all terms)/work, 0 at rest
 };
 
+// The energies of a record.
+void set_energies(Record& record, const mpm::Energies& energies);
+
 // Everything needed to go on with bit-identical results.
 template <int Dim>
 struct Checkpoint {

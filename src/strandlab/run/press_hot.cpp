@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "strandlab/case/hotpress.hpp"
+#include "strandlab/core/error.hpp"
 #include "strandlab/hotpress/cycle.hpp"
 #include "strandlab/hotpress/strands.hpp"
 
@@ -55,9 +56,9 @@ class HotPress {
         keep_(keep),
         observer_(observer),
         settings_(settings_of(formed.c)),
-        strands_(mechanics(resume)),
-        first_step_(resume ? resume->engine.step : 0) {
+        strands_(mechanics(resume)) {
     if (!resume) return;
+    if (resume->cycle.size() < kOwn) throw InputError("the checkpoint of a hot press has no state of its cycle");
     state_ = resume->cycle;
     Numbers own(std::vector<double>(state_.end() - kOwn, state_.end()));
     state_.resize(state_.size() - kOwn);
@@ -188,7 +189,7 @@ class HotPress {
   hotpress::StrandMechanics strands_;
   std::vector<double> state_;  // to go on from
   std::optional<press::Checkpoint<2>> last_;
-  long long first_step_;
+
   int next_frame_ = 0;
   double closed_at_ = 0;
   bool kept_ = false, closed_ = false;

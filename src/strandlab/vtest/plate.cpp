@@ -16,16 +16,8 @@ namespace {
 
 void check(const Panel<3>& panel, const PlateOptions& options) {
   if (panel.strands.empty()) throw InputError("the panel has no strands to test");
-  if (options.compliance_t_mm_per_MPa.empty()) throw InputError("no glue compliance 1/D_t is given: give at least one");
-  const auto check_number = [](const char* what, double value) {
-    if (std::isnan(value)) throw InputError(fmt::format("glue compliance {} is not a number", what));
-  };
-  for (const double c : options.compliance_t_mm_per_MPa) check_number("1/D_t", c);
-  check_number("1/D_n", options.compliance_n_mm_per_MPa);
-  if (options.elements_through_strand < 1 || options.elements_through_strand > kMostElements) {
-    throw InputError(fmt::format("{} elements through a strand: 1 to {} are possible", options.elements_through_strand,
-                                 kMostElements));
-  }
+  check_bonds_and_elements(options.compliance_t_mm_per_MPa, options.compliance_n_mm_per_MPa,
+                           options.elements_through_strand);
   if (!(options.element_length_mm > 0) || !std::isfinite(options.element_length_mm)) {
     throw InputError(fmt::format("elements {} mm long: a positive length is needed", options.element_length_mm));
   }

@@ -113,19 +113,24 @@ void add_once(const std::vector<std::string>& sentences, std::vector<std::string
 
 }  // namespace
 
-void check(const Panel<2>& panel, const Options& options) {
-  if (panel.strands.empty()) throw InputError("the panel has no strands to test");
-  if (options.kinds.empty()) throw InputError("no kind of test is asked for: give at least one of " + allowed_kinds());
-  if (options.compliance_t_mm_per_MPa.empty()) throw InputError("no glue compliance 1/D_t is given: give at least one");
+void check_bonds_and_elements(const std::vector<double>& compliances_t, double compliance_n, int elements_through) {
+  if (compliances_t.empty()) throw InputError("no glue compliance 1/D_t is given: give at least one");
   const auto check_number = [](const char* what, double value) {
     if (std::isnan(value)) throw InputError(fmt::format("glue compliance {} is not a number", what));
   };
-  for (const double c : options.compliance_t_mm_per_MPa) check_number("1/D_t", c);
-  check_number("1/D_n", options.compliance_n_mm_per_MPa);
-  if (options.elements_through_strand < 1 || options.elements_through_strand > kMostElements) {
-    throw InputError(fmt::format("{} elements through a strand: 1 to {} are possible", options.elements_through_strand,
-                                 kMostElements));
+  for (const double c : compliances_t) check_number("1/D_t", c);
+  check_number("1/D_n", compliance_n);
+  if (elements_through < 1 || elements_through > kMostElements) {
+    throw InputError(
+        fmt::format("{} elements through a strand: 1 to {} are possible", elements_through, kMostElements));
   }
+}
+
+void check(const Panel<2>& panel, const Options& options) {
+  if (panel.strands.empty()) throw InputError("the panel has no strands to test");
+  if (options.kinds.empty()) throw InputError("no kind of test is asked for: give at least one of " + allowed_kinds());
+  check_bonds_and_elements(options.compliance_t_mm_per_MPa, options.compliance_n_mm_per_MPa,
+                           options.elements_through_strand);
   if (!(options.perfect_bond >= 10 && options.perfect_bond <= 1e6)) {
     throw InputError(
         fmt::format("a perfect bond of {} times the wood's stiffness: 10 to 1e6 are possible", options.perfect_bond));

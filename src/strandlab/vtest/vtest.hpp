@@ -68,6 +68,8 @@ struct Result {
 
 // Refuses options that no panel of this mat could be tested with, before it is pressed. Throws InputError.
 void check(const Panel<2>& mat, const Options& options);
+// The part of it that tests of sections and of plates have in common.
+void check_bonds_and_elements(const std::vector<double>& compliances_t, double compliance_n, int elements_through);
 
 // Refuses a mat between rollers of which glue can connect the two ends at no compaction up to this one: there would be
 // nothing to test. Throws InputError with the remedies.

@@ -116,7 +116,7 @@ TEST(Strands, FollowTheColumnAtGivenTemperatures) {
   report("stress of a stack of strands at 90 C and 7 %, closed in 20 s and held for 1110 s, against the column", worst,
          below(.02));
   const auto& last = strands.records().back();
-  report("its balance of energy over the platens' work", std::abs(last.balance_error()), below(.01));
+  report("its balance of energy over the platens' work", std::abs(last.balance_error()), below(3e-5));
 }
 
 TEST(Strands, LayersFollowTheColumnBetweenHotFacesAndACoolCore) {
@@ -130,15 +130,14 @@ TEST(Strands, LayersFollowTheColumnBetweenHotFacesAndACoolCore) {
   double worst = 0;
   for (std::size_t i = 8; i < given.size(); ++i)
     worst = std::max(worst, std::abs(given[i].stress / expected[i].stress - 1));
-  report("stress of a stack with faces of 160 C and a core of 40 C, against the column", worst,
-         below(.1).because("points between the middles of two cells have what lies between, a column's layers jump"));
+  report("stress of a stack with faces of 160 C and a core of 40 C, against the column", worst, below(.05));
   double thickness = 0;
   const auto a = strands.thickness(), b = column.thickness();
   for (int row = 0; row < kRows; ++row) {
     const auto i = static_cast<std::size_t>(2 * row);
     thickness = std::max(thickness, std::abs((a[i] + a[i + 1]) / (b[i] + b[i + 1]) - 1));
   }
-  report("thickness of its rows, against the column", thickness, below(.05));
+  report("thickness of its rows, against the column", thickness, below(.03));
 }
 
 // Held at a height while it gets hot: the elastic strain stays, so does the plastic one where nothing yields, and the
@@ -177,7 +176,8 @@ TEST(Strands, HeatRelaxesStressAndColdKeepsIt) {
   const double strain = 1 - height / (1e-3 * kRows * kRow);
   report("strain that stays of a heated and cooled stack, over that given",
          (1 - strands.height_unloaded() / (1e-3 * kRows * kRow)) / strain, strandlab::test::near(1 - e, .02));
-  report("balance of energy with what softening takes", std::abs(strands.records().back().balance_error()), below(.01));
+  report("balance of energy with what softening takes", std::abs(strands.records().back().balance_error()),
+         below(1e-12).because("round-off"));
   EXPECT_GT(strands.records().back().softening_mJ, 0);
 }
 
@@ -215,11 +215,7 @@ TEST(Strands, SoftenedAlreadyAreRefused) {
 
 // ---- Whole cycles of a small mat ------------------------------------------------------------------------------------
 
-Settings short_cycle(double step) {
-  auto s = test::settings_of(Mechanics::kStrands, 6, step,
-                             {"close to 60 % in 4 s", "hold until 8 s", "vent 2 s", "open 2 s"});
-  return s;
-}
+const std::vector<std::string> kShort{"close to 60 % in 4 s", "hold until 8 s", "vent 2 s", "open 2 s"};
 
 PressedMat mat_of(const wood::Material& wood) {
   PressedMat mat;
@@ -239,7 +235,7 @@ struct Whole {
   std::vector<Stop> stops;
 };
 
-Whole whole(int threads, double step, const Stop* from = nullptr) {
+Whole whole(int threads, double step, const Stop* from = nullptr, const std::vector<std::string>& schedule = kShort) {
   auto wood = wood::library().front();
   wood.law = wood::Law::kCrushing;
   const auto panel = stack(wood);
@@ -254,7 +250,8 @@ Whole whole(int threads, double step, const Stop* from = nullptr) {
     exchanges = strands.records().size();
     if (exchanges % 9 == 4) all.stops.push_back({strands.checkpoint(), state()});
   };
-  all.cycle = press_hot(short_cycle(step), mat_of(wood), strands, watch, from ? from->state : std::vector<double>());
+  all.cycle = press_hot(test::settings_of(Mechanics::kStrands, 6, step, schedule), mat_of(wood), strands, watch,
+                        from ? from->state : std::vector<double>());
   all.panel = strands.panel(std::vector<StrandMechanics::Reading>(12));
   all.records = strands.records();
   return all;
@@ -304,7 +301,7 @@ TEST(HotCycle, BalancesItsEnergyAndSpringsBackALittle) {
   for (const auto& r : undisturbed().records) {
     if (r.compaction > .1) worst = std::max(worst, std::abs(r.balance_error()));
   }
-  report("energy of a hot cycle over the platens' work, worst exchange", worst, below(.01));
+  report("energy of a hot cycle over the platens' work, worst exchange", worst, below(4e-4));
   const auto& record = undisturbed().cycle.record;
   const auto held = std::find_if(record.begin(), record.end(), [](const auto& i) { return i.mark == "held"; });
   const double springback = record.back().thickness / held->thickness - 1;
@@ -312,17 +309,25 @@ TEST(HotCycle, BalancesItsEnergyAndSpringsBackALittle) {
   EXPECT_LT(springback, .02);
 }
 
-// The scheme is of first order in the exchange's time.
+// The scheme is of first order in the exchange's time. So slow a closing that the step, not the hundredth of the gap
+// that an exchange closes at most, says how many exchanges there are.
 TEST(HotCycle, HalfTheStepChangesLittle) {
-  const auto half = whole(1, .125);
-  const auto &a = undisturbed().cycle.record.back(), &b = half.cycle.record.back();
+  const std::vector<std::string> slow{"close to 60 % in 60 s", "hold until 70 s", "vent 2 s", "open 2 s"};
+  const auto whole_step = whole(1, .25, nullptr, slow), half_step = whole(1, .125, nullptr, slow);
+  EXPECT_GT(half_step.records.size(), 3 * whole_step.records.size() / 2);
   double T = 0, density = 0;
-  for (std::size_t c = 0; c < a.cells.size(); ++c) {
-    T = std::max(T, std::abs(a.cells[c].T - b.cells[c].T));
-    density = std::max(density, std::abs(a.cells[c].density / b.cells[c].density - 1));
+  for (const char* mark : {"closed", "opened"}) {
+    const auto marked = [mark](const Cycle& cycle) {
+      return *std::find_if(cycle.record.begin(), cycle.record.end(), [mark](const auto& i) { return i.mark == mark; });
+    };
+    const auto a = marked(whole_step.cycle), b = marked(half_step.cycle);
+    for (std::size_t c = 0; c < a.cells.size(); ++c) {
+      T = std::max(T, std::abs(a.cells[c].T - b.cells[c].T));
+      density = std::max(density, std::abs(a.cells[c].density / b.cells[c].density - 1));
+    }
   }
-  report("temperature of any layer after a hot cycle, half the step", T, below(1), "K");
-  report("density of any layer, half the step", density, below(.01));
+  report("temperature of any layer when closed and opened, half the step", T, below(.09), "K");
+  report("density of any layer, half the step", density, below(.005));
 }
 
 }  // namespace

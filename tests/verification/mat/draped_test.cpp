@@ -8,25 +8,12 @@
 #include "strandlab/mat/drape.hpp"
 #include "strandlab/mat/plate_form.hpp"
 #include "support/report.hpp"
+#include "support/sample.hpp"
 
 // Random deposition of strands 150 x 25 mm against its closed-form statistics (Dai & Steiner, Wood Sci. Technol. 28
 // (1994) 135-146), and draped heights against those of an independent program.
 namespace strandlab::mat {
 namespace {
-
-class MeanOverMats {
- public:
-  void add(double value) {
-    ++count_;
-    sum_ += value;
-    squares_ += value * value;
-  }
-  double mean() const { return sum_ / count_; }
-  double error() const { return std::sqrt((squares_ / count_ - mean() * mean()) / (count_ - 1)); }
-
- private:
-  double count_ = 0, sum_ = 0, squares_ = 0;
-};
 
 constexpr int kWindow = 1016;  // mm, of a torus so large that a fixed number of strands is next to a Poisson one
 constexpr double kCount = 20;  // strands over a point
@@ -80,7 +67,7 @@ constexpr std::array<int, 3> kZones{10, 50, 100};  // mm
 
 // V(D) of Dai & Steiner for zones of 10, 50 and 100 mm. A fixed number of strands takes off L B over the window.
 void compare_zones(const std::string& name, const AngleDistribution& angles, const std::array<double, 3>& expected) {
-  std::array<MeanOverMats, 3> variance;
+  std::array<test::Sample, 3> variance;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const auto mat = deposited(angles, seed);
     const auto count = counts(mat);
@@ -108,8 +95,8 @@ TEST(DepositionNightly, DensityOfZonesAnyAngle) {
 TEST(Deposition, CountsArePoisson) {
   const std::array<double, 4> compactions{0, .2, .4, .5}, columns{.530, .844, .979, .995},
       faces{.623, .898, .990, .998};
-  MeanOverMats variance;
-  std::array<MeanOverMats, 4> carrying, interfaces;
+  test::Sample variance;
+  std::array<test::Sample, 4> carrying, interfaces;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const auto mat = deposited({0, 0, 25}, seed);
     EXPECT_NEAR(coverage(mat, 0), kCount, 0.5 * 150 * 25 / (kWindow * kWindow) + 1e-9);

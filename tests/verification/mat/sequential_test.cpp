@@ -6,6 +6,7 @@
 #include <string>
 
 #include "support/report.hpp"
+#include "support/sample.hpp"
 
 // Layers of random sequential addition on a torus, strands 150 x 25 mm without clearance unless it says so, against an
 // independent program's means over its layers. Bands are three standard errors of the difference of the two means.
@@ -30,24 +31,10 @@ struct Layers {
   Expected expected;
 };
 
-class Sample {
- public:
-  void add(double value) {
-    ++count_;
-    sum_ += value;
-    squares_ += value * value;
-  }
-  double mean() const { return sum_ / count_; }
-  double error() const { return std::sqrt((squares_ / count_ - mean() * mean()) / (count_ - 1)); }
-
- private:
-  double count_ = 0, sum_ = 0, squares_ = 0;
-};
-
 void compare(const Layers& what) {
   const Window torus{what.window_mm, what.window_mm, true};
   const PlateRow row{"surface", what.sizes, what.angles};
-  Sample coverage, strands, off;
+  test::Sample coverage, strands, off;
   for (int i = 0; i < what.layers; ++i) {
     const auto layer = sequential_layer(row, torus, {0, what.failures, false}, RandomStream(1, i));
     double area = 0;
@@ -58,7 +45,7 @@ void compare(const Layers& what) {
     coverage.add(area / (torus.x * torus.y));
     strands.add(static_cast<double>(layer.strands.size()));
   }
-  const auto band = [](const Sample& sample, const Mean& mean) {
+  const auto band = [](const test::Sample& sample, const Mean& mean) {
     return test::near(mean.value, 3 * std::hypot(sample.error(), mean.error)).because("three standard errors");
   };
   const auto& expected = what.expected;
