@@ -20,6 +20,10 @@ if(STRANDLAB_FUZZ)  # every room counts its branches, for the fuzzers to find ne
   target_compile_options(strandlab_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
+# What only moves files, words and tables about is compiled for quick building: none of a run's time goes there.
+set(strandlab_quick_to_build $<IF:$<BOOL:${STRANDLAB_SANITIZE}>,-O0,$<$<CONFIG:Release>:-O1>>)
+set(strandlab_quick_rooms files table statistics theory profile bondline case io report run study)
+
 # strandlab_room(name LINKS public... PRIVATE_LINKS private...): one library from src/strandlab/<name>/ and its folders, installed as
 # strandlab::<name>
 function(strandlab_room name)
@@ -40,6 +44,9 @@ function(strandlab_room name)
   target_include_directories(strandlab_${name} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
     $<INSTALL_INTERFACE:include>)
   target_compile_features(strandlab_${name} ${scope} cxx_std_20)
+  if(sources AND name IN_LIST strandlab_quick_rooms)
+    target_compile_options(strandlab_${name} PRIVATE ${strandlab_quick_to_build})
+  endif()
   set_target_properties(strandlab_${name} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS strandlab_${name} EXPORT strandlab)
 endfunction()

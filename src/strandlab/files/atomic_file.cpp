@@ -2,13 +2,18 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <optional>
 #include <regex>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "strandlab/core/error.hpp"
 
@@ -100,6 +105,22 @@ void write_synced(Descriptor& fd, const fs::path& file, std::string_view bytes) 
   if (const int error = fd.close()) fail(file, "writing failed", error);
 }
 
+// The process that made a temporary file, by its name; nothing for another file.
+std::optional<pid_t> process_of(const fs::path& file) {
+  static const std::regex temporary(R"(.+\.(\d+)-\d+\.tmp)");
+  std::smatch match;
+  const auto name = file.filename().string();
+  if (!std::regex_match(name, match, temporary)) return std::nullopt;
+  const auto digits = match[1].str();
+  pid_t process = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), process);  // 0: a number that no process has
+  return process;
+}
+
+bool runs(pid_t process) {
+  return process > 0 && (::kill(process, 0) == 0 || errno == EPERM);
+}
+
 }  // namespace
 
 void write_atomically(const fs::path& file, std::string_view bytes, const std::function<void()>& before_rename) {
@@ -126,8 +147,17 @@ void make_folder(const fs::path& folder) {
 }
 
 bool is_temporary(const fs::path& file) {
-  static const std::regex name(R"(.+\.\d+-\d+\.tmp)");
-  return std::regex_match(file.filename().string(), name);
+  return process_of(file).has_value();
+}
+
+void remove_abandoned(const fs::path& folder, std::string_view name) {
+  std::vector<fs::path> abandoned;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const auto process = process_of(entry.path());
+    if (process && !runs(*process) && entry.path().filename().string().starts_with(name))
+      abandoned.push_back(entry.path());
+  }
+  for (const auto& file : abandoned) fs::remove(file);
 }
 
 }  // namespace strandlab::files

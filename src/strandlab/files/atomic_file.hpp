@@ -21,4 +21,8 @@ void make_folder(const std::filesystem::path& folder);
 // Whether a file has the name of a temporary one, "<file>.<process>-<number>.tmp": what a killed program leaves.
 bool is_temporary(const std::filesystem::path& file);
 
+// Removes the temporary files in `folder`, not below it, that were made by processes of this machine which run no more
+// and whose name begins with `name`. For folders in which several programs write at once: what they still write stays.
+void remove_abandoned(const std::filesystem::path& folder, std::string_view name = "");
+
 }  // namespace strandlab::files

@@ -160,9 +160,12 @@ Study write_study(const Plan& plan, const std::vector<PlannedItem>& items, const
   refuse_foreign_folder(folder, plan);
   refuse_other_plan(folder, items);
   auto study = study_of(plan, items, folder);
+  files::make_folder(folder);
+  files::remove_abandoned(folder);
   for (const auto& planned : items) {
     const auto place = study.item_folder(planned.item);
     files::make_folder(place);
+    files::remove_abandoned(place, "case.toml.");
     if (files::read_text(place / "case.toml") != planned.case_text)
       files::write_atomically(place / "case.toml", planned.case_text);
   }

@@ -1,8 +1,12 @@
 #include "strandlab/files/atomic_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <stdexcept>
+#include <string>
 
 #include "strandlab/core/error.hpp"
 #include "support/temporary_folder.hpp"
@@ -56,6 +60,29 @@ TEST(AtomicFile, ATemporaryFileIsKnownByItsName) {
   EXPECT_TRUE(files::is_temporary("run/report.html.4711-2.tmp"));
   for (const auto* name : {"report.html", "report.html.tmp", "notes-2.tmp", "4711-2.tmp", "a.4711-2.tmp.csv"})
     EXPECT_FALSE(files::is_temporary(name)) << name;
+}
+
+// A process that has ended and been waited for has a number that no process has; this one and the first one run.
+TEST(AtomicFile, WhatAKilledProgramLeftIsRemovedAndWhatIsBeingWrittenStays) {
+  const TemporaryFolder folder;
+  const auto dead = ::fork();
+  ASSERT_GE(dead, 0);
+  if (dead == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(dead, nullptr, 0), dead);
+  const auto left = [&](const std::string& file, pid_t process) {
+    const auto path = folder / fmt::format("{}.{}-7.tmp", file, process);
+    test::put(path, "half");
+    return path;
+  };
+  const auto stays = {left("a.csv", ::getpid()), left("a.csv", 1), folder / "a.csv.tmp"};
+  test::put(folder / "a.csv.tmp", "a user's");
+  const auto other = left("b.csv", dead), no_process = left("a.csv", 0), half = left("a.csv", dead);
+  files::remove_abandoned(folder.path(), "a.csv.");
+  for (const auto& file : {half, no_process}) EXPECT_FALSE(std::filesystem::exists(file)) << file;
+  for (const auto& file : stays) EXPECT_TRUE(std::filesystem::exists(file)) << file;
+  EXPECT_TRUE(std::filesystem::exists(other));
+  files::remove_abandoned(folder.path());
+  EXPECT_FALSE(std::filesystem::exists(other));
 }
 
 TEST(MakeFolder, SaysWhatIsInTheWay) {
