@@ -6,6 +6,7 @@
 
 #include "strandlab/case/case.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/nearest.hpp"
 #include "strandlab/hotpress/cycle.hpp"
 
 namespace strandlab::cases {
@@ -71,6 +72,14 @@ void check_hotpress(const Case& c, const std::function<void(const std::string&, 
   check("platen_bottom_program", [&] { static_cast<void>(platens(h.platen_bottom_program, h.platen_C)); });
   check("permeability.table", [&] { static_cast<void>(permeability_table(h.permeability_table)); });
   check("resin.face", [&] { static_cast<void>(find_resin(c, h.resin_face)); });
+  check("resin.face_kinds", [&] {
+    std::vector<std::string> known;
+    for (const auto& kind : c.kinds) known.push_back(kind.name);
+    for (const auto& kind : h.face_kinds) {
+      if (std::find(known.begin(), known.end(), kind) == known.end())
+        throw InputError(fmt::format("\"{}\" is no kind of strand of this case: {}", kind, quoted_list(known)));
+    }
+  });
   check("resin.core", [&] { static_cast<void>(find_resin(c, h.resin_core)); });
 }
 
@@ -95,6 +104,13 @@ hotpress::Settings hotpress_settings(const Case& c) {
   s.constants = constants_of(h);
   if (!h.log_file.empty()) s.log = hotpress::read_log(h.log_file, h.log_columns);
   return s;
+}
+
+hotpress::Carried carried_resin(const Case& c, const std::string& kind) {
+  const auto& faces = c.hotpress.face_kinds;
+  if (faces.empty()) return hotpress::Carried::kOfItsLayer;
+  return std::find(faces.begin(), faces.end(), kind) != faces.end() ? hotpress::Carried::kFace
+                                                                    : hotpress::Carried::kCore;
 }
 
 bool presses_hot(const Case& c) {
@@ -133,7 +149,7 @@ hotpress::PressedMat pressed_mat(const Case& c, const mat::Mat& mat) {
       const auto same = std::find_if(woods.begin(), woods.end(),
                                      [&](const auto& wood) { return wood.material.name == material.name; });
       if (same == woods.end()) {
-        woods.push_back({mass, material});
+        woods.push_back({mass, material, carried_resin(c, mat.layers[row].role)});
       } else {
         same->dry_mass += mass;
       }

@@ -14,6 +14,7 @@ struct Mat;
 namespace strandlab::hotpress {
 struct Settings;
 struct PressedMat;
+enum class Carried;
 }  // namespace strandlab::hotpress
 
 namespace strandlab::cases {
@@ -42,6 +43,7 @@ struct HotPressSettings {
   double max_mm_per_s = 5;
   double rate_exponent = .04;
   std::string resin_face = "pf", resin_core = "pmdi";
+  std::vector<std::string> face_kinds;  // kinds of strand that carry the face resin; empty: those in face_fraction
   hotpress::Softening softening;
   double K400_m2 = 5e-12, slope = .0072, in_plane_ratio = 30;
   std::string permeability_table;  // "350 1.1e-11, 640 9.4e-14"; empty: the formula
@@ -55,6 +57,9 @@ void check_hotpress(const Case& c, const std::function<void(const std::string& k
 // What the hot press needs to know of a case; defaults where it has no [hotpress]. Reads the log it names. Throws
 // InputError.
 hotpress::Settings hotpress_settings(const Case& c);
+
+// Which resin a kind of strand carries.
+hotpress::Carried carried_resin(const Case& c, const std::string& kind);
 
 // Whether the mat is pressed hot strand by strand: the case has [hotpress] and mechanics = "strands".
 bool presses_hot(const Case& c);

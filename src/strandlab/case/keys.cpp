@@ -179,9 +179,9 @@ void add_hotpress(Table& t) {
   t.add(same_results(keys_of_part(
       "hotpress", hot_press_settings(), [](auto& c) -> auto& { return c.hotpress; })));
   t.at("hotpress.resin.face").choices = t.at("hotpress.resin.core").choices = resin_names;
-  t.insert_after("hotpress.resin.core", same_results(keys_of_part(
-                                            "hotpress.softening", hotpress::softening_options(),
-                                            [](auto& c) -> auto& { return c.hotpress.softening; })));
+  t.insert_after("hotpress.resin.face_kinds", same_results(keys_of_part(
+                                                  "hotpress.softening", hotpress::softening_options(),
+                                                  [](auto& c) -> auto& { return c.hotpress.softening; })));
   t.add(same_results(keys_of_part(
       "hotpress.log", hotpress::log_column_options(), [](auto& c) -> auto& { return c.hotpress.log_columns; })));
   t.add(same_results(keys_of(

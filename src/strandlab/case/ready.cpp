@@ -84,7 +84,7 @@ const std::vector<Ready>& table() {
        "hotpress`\nanswers in a second how long to press, with a column of its layers.",
        "[mat]\nlength_mm = 60\nrows = [\"surface*8\", \"core*18\", \"surface*8\"]\n"
        "[kinds.surface]\nangle_sd_deg = 25\nyield_factor = 1\n[kinds.core]\nangle_sd_deg = 25\nyield_factor = 1\n"
-       "[hotpress]\n"},
+       "[hotpress.resin]\nface_kinds = [\"surface\"]\n"},
       {"osl", pressed("Oriented strand lumber: 20 rows of strands along the panel, pressed to 640 kg/m3."),
        fmt::format("[mat]\n{}", kAlong)},
       {"plywood", pressed("Plywood: the rows of the OSB case without gaps, pressed to 640 kg/m3."),

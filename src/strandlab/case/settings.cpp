@@ -160,6 +160,10 @@ std::vector<Declaration<HotPressSettings>> hot_press_settings() {
   add(hot_mat_settings());
   add({declare("resin.face", "", kAny, "resin of the faces, built in or of [resins]", &H::resin_face),
        declare("resin.core", "", kAny, "resin of the core", &H::resin_core),
+       declare("resin.face_kinds", "", kAny,
+               "kinds of strand that carry the resin of the faces, all others that of the core; none: what lies in "
+               "face_fraction does",
+               &H::face_kinds),
        declare("permeability.K400_m2", "m2", kPositive, "of a mat of 400 kg/m3, through the thickness", &H::K400_m2),
        declare("permeability.slope", "m3/kg", kNotNegative, "fall of its decimal logarithm with density", &H::slope),
        declare("permeability.in_plane_ratio", "", kPositive, "permeability along the panel over that",

@@ -89,6 +89,7 @@ class Press {
   Press(const Settings& settings, const PressedMat& mat, MatMechanics& mechanics, const Watch& watch)
       : s_(settings),
         size_(checked_size(settings, mat)),
+        layers_(mat.layers),
         mechanics_(mechanics),
         watch_(watch),
         thickness_(mechanics.thickness()),
@@ -128,8 +129,15 @@ class Press {
  private:
   // ---- the mat ----
   double mass_fraction(std::size_t cell) const { return (static_cast<double>(cell) + .5) / s_.cells; }
+  // Whether the wood in the middle of a cell's mass carries the face resin.
   bool is_face(std::size_t cell) const {
     const double at = mass_fraction(cell);
+    double below = 0;
+    for (const auto& layer : layers_) {
+      below += layer.dry_mass / size_.dry_mass;
+      if (at < below && layer.resin != Carried::kOfItsLayer) return layer.resin == Carried::kFace;
+      if (at < below) break;
+    }
     return std::min(at, 1 - at) < s_.face_fraction;
   }
   // Of the cell's mass the part that lies in the faces has their moisture.
@@ -514,6 +522,7 @@ class Press {
 
   Settings s_;
   MatSize size_;
+  std::vector<MatLayer> layers_;
   MatMechanics& mechanics_;
   Watch watch_;
   std::vector<double> thickness_;

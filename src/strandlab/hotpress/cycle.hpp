@@ -26,6 +26,7 @@ const char* name(Mechanics mechanics);  // "column", "uniform", "strands"
 struct MatLayer {
   double dry_mass = 0;  // kg/m^2
   wood::Material material;
+  Carried resin = Carried::kOfItsLayer;
 };
 struct PressedMat {
   std::vector<MatLayer> layers;
@@ -60,7 +61,7 @@ struct CellReading {
   double T, M, gas;             // C, kg/kg, Pa above the room's
   double density;               // kg/m^3, oven-dry mass
   double cure_face, cure_core;  // degree of cure that each resin has, or would have, there
-  bool face;                    // it carries the face resin
+  bool face;                    // its wood carries the face resin
   double cure() const { return face ? cure_face : cure_core; }
 };
 

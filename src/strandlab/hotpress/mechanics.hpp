@@ -11,6 +11,9 @@
 
 namespace strandlab::hotpress {
 
+// Which of the two resins wood carries: that of the layer it lies in, that of the faces, or that of the core.
+enum class Carried { kOfItsLayer, kFace, kCore };
+
 // Where the press shall go in a step: to a height (m), or under a stress of the wood (Pa) that may not close it below a
 // stop or faster than `fastest`.
 struct Move {

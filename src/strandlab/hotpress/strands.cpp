@@ -26,10 +26,11 @@ constexpr double kDamping = .6;          // of the thickness mode's angular freq
 constexpr int kDampedSteps = 4;          // steps between dampings
 constexpr double kRead = .5;             // part of the settling, its end, from which forces are read
 constexpr double kServoTransits = 1.5, kServoModulus = 300;  // time and MPa of the control of pressure
-constexpr double kFiltered = .3;     // transits over which the pressure that it sees is averaged
-constexpr double kServoSpeed = .25;  // of the platens' speed, at most, under control of pressure
-constexpr double kDuePressure = .2;  // of the stress held: its change for which the mat is settled anew
-constexpr double kJudged = .5;       // of the largest stress: from where the mat bears it a pressing is judged
+constexpr double kFiltered = .3;      // transits over which the pressure that it sees is averaged
+constexpr double kServoSpeed = .25;   // of the platens' speed, at most, under control of pressure
+constexpr double kDuePressure = .2;   // of the stress held: its change for which the mat is settled anew
+constexpr double kMuchPrecure = .05;  // strength lost, of which a warning tells. Judgement
+constexpr double kJudged = .5;        // of the largest stress: from where the mat bears it a pressing is judged
 
 double change(const std::vector<double>& before, const std::vector<double>& now) {
   double largest = 0;
@@ -312,23 +313,112 @@ void StrandMechanics::record() {
   records_.push_back(r);
 }
 
+double StrandMechanics::of_resin(std::size_t strand, double place, const std::vector<Reading>& cells,
+                                 double Resin::*value) const {
+  const auto carried = how_.resin.empty() ? Carried::kOfItsLayer : how_.resin[strand];
+  return between_cells(cells.size(), place, [&](std::size_t i) {
+    const bool face = carried == Carried::kFace || (carried == Carried::kOfItsLayer && cells[i].is_face);
+    return (face ? cells[i].face : cells[i].core).*value;
+  });
+}
+
+std::vector<std::size_t> StrandMechanics::face_points() const {
+  std::vector<std::size_t> points;
+  std::size_t first = 0;
+  for (const auto& strand : panel_.strands) {
+    for (const int row : {0, strand.lattice.counts[1] - 1})
+      for (int i = 0; i < strand.lattice.counts[0]; ++i) points.push_back(first + strand.lattice.point({i, row}));
+    first += strand.size();
+  }
+  return points;
+}
+
+std::vector<double> StrandMechanics::strength_of_faces(const std::vector<Reading>& cells) const {
+  std::vector<double> strength;
+  const auto place = places();
+  const auto points = face_points();
+  auto point = points.begin();
+  for (std::size_t s = 0; s < panel_.strands.size(); ++s)
+    for (int k = 0; k < 2 * panel_.strands[s].lattice.counts[0]; ++k, ++point)
+      strength.push_back(of_resin(s, place[*point], cells, &Resin::strength));
+  return strength;
+}
+
+// While no resin has any strength nothing is lost. In the first exchange after which one has, all faces that touch are
+// found, those too that met long before: they have lost nothing.
+void StrandMechanics::meet(const std::vector<Reading>& cells) {
+  const bool any = std::any_of(cells.begin(), cells.end(),
+                               [](const Reading& cell) { return cell.face.strength > 0 || cell.core.strength > 0; });
+  if (!any) return;
+  auto now = strength_of_faces(cells);
+  if (met_.empty()) {
+    strength_.assign(now.size(), 0);
+    met_.assign(now.size(), kApart);
+  }
+  std::vector<std::size_t> first;  // of a strand in these lists
+  std::size_t size = 0;
+  double finest = panel_.strands.front().lattice.spacing[0];
+  for (const auto& strand : panel_.strands) {
+    first.push_back(size);
+    size += 2 * static_cast<std::size_t>(strand.lattice.counts[0]);
+    finest = std::min(finest, strand.lattice.spacing[0]);
+  }
+  auto curing = how_.curing;
+  curing.point_spacing_mm = .5 * finest;  // so that no point of either face is passed over
+  for (const auto& point : glue::cure(panel_, curing)) {
+    for (const auto* face : {&point.a, &point.b}) {
+      const auto s = static_cast<std::size_t>(face->strand);
+      const int columns = panel_.strands[s].lattice.counts[0];
+      const auto at =
+          first[s] + static_cast<std::size_t>(face->segment + (face->side == glue::Side::kTop ? columns : 0));
+      if (met_[at] == kApart) met_[at] = strength_[at];
+    }
+  }
+  strength_ = std::move(now);
+}
+
+double StrandMechanics::precured() const {
+  double sum = 0, faces = 0;
+  for (const double strength : met_) {
+    if (strength == kApart) continue;
+    sum += strength;
+    ++faces;
+  }
+  return faces > 0 ? sum / faces : 0;
+}
+
 Panel<2> StrandMechanics::panel(const std::vector<Reading>& cells) const {
   Panel<2> panel = panel_;
   const auto place = places();
+  std::vector<double> quality;
   std::size_t n = 0;
-  for (auto& strand : panel.strands) {
-    auto& points = strand.points;
+  for (std::size_t s = 0; s < panel.strands.size(); ++s) {
+    auto& points = panel.strands[s].points;
     const auto fill = [&](std::vector<double>& values, double Reading::*member) {
       values.clear();
-      for (std::size_t p = 0; p < strand.size(); ++p)
-        values.push_back(between_cells(cells.size(), place[n + p], [&](std::size_t i) { return cells[i].*member; }));
+      for (std::size_t p = n; p < n + points.size(); ++p)
+        values.push_back(between_cells(cells.size(), place[p], [&](std::size_t i) { return cells[i].*member; }));
     };
     fill(points.temperature, &Reading::T);
     fill(points.moisture, &Reading::M);
     fill(points.gas, &Reading::gas);
-    fill(points.cure, &Reading::cure);
-    fill(points.bond_quality, &Reading::quality);
-    n += strand.size();
+    points.cure.clear();
+    for (std::size_t p = n; p < n + points.size(); ++p) {
+      points.cure.push_back(of_resin(s, place[p], cells, &Resin::cure));
+      quality.push_back(of_resin(s, place[p], cells, &Resin::strength));
+    }
+    n += points.size();
+  }
+  const auto faces = face_points();
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const bool met = !met_.empty() && met_[i] != kApart;
+    quality[faces[i]] = met ? std::max(0., quality[faces[i]] - met_[i]) : 0;
+  }
+  auto next = quality.begin();
+  for (auto& strand : panel.strands) {
+    const auto end = next + static_cast<std::ptrdiff_t>(strand.size());
+    strand.points.bond_quality.assign(next, end);
+    next = end;
   }
   return panel;
 }
@@ -346,6 +436,8 @@ void StrandMechanics::visit(Numbers& numbers) {
   numbers(thickness_);
   numbers(last_.stiffness);
   numbers(last_.yield);
+  numbers(strength_);
+  numbers(met_);
   for (auto* number : {&stress_, &waiting_, &velocity_, &wanted_, &held_, &filtered_, &now_}) numbers(*number);
   numbers(by_pressure_);
   numbers(limited_);
@@ -376,6 +468,12 @@ std::vector<std::string> StrandMechanics::warnings() const {
         fmt::format("The two platens felt forces that differed by up to {:.0f} % (limit {:.0f} %): the mat "
                     "was not pressed evenly. Lower press.speed_m_s.",
                     100 * imbalance, 100 * press::kForceLimit));
+  }
+  if (precured() > kMuchPrecure) {
+    list.push_back(fmt::format(
+        "precure: resin had set before strands met, and their bonds have lost {:.0f} % of their strength on "
+        "average. Close faster, or take a slower resin.",
+        100 * precured()));
   }
   if (!records_.empty() && std::abs(records_.back().balance_error()) > press::kBalanceLimit) {
     list.push_back(fmt::format("The energy balance is off by {:.1f} % of the platens' work.",

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "strandlab/glue/glue.hpp"
 #include "strandlab/hotpress/mechanics.hpp"
 #include "strandlab/press/press.hpp"
 
@@ -22,6 +23,8 @@ struct StrandPress {
   wood::RateEffect rate;
   Softening softening;
   int cells = 40;                     // of equal mass, as the transfer has them
+  std::vector<Carried> resin;         // by strand; empty: all of their layers
+  glue::CuringOptions curing;         // faces that are as near as to be glued have met
   double due = .15;                   // change of a layer's ln factor for which a mat at rest is settled anew
   std::function<void()> before_step;  // what it throws ends the pressing
 };
@@ -42,12 +45,22 @@ class StrandMechanics final : public MatMechanics {
   double longest_step(double closing) const override;
   void visit(Numbers& numbers) override;
 
-  // The panel now, its points with temperature, moisture, gas pressure and cure as a reading of the cells says (bottom
-  // to top).
-  struct Reading {
-    double T, M, gas, cure, quality;  // C, kg/kg, kPa above the room's; of the layer's resin
+  // What is told of a cell (bottom to top).
+  struct Resin {
+    double cure = 0, strength = 0;  // degree of cure; part of the strength of a bond that is fully cured
   };
+  struct Reading {
+    double T = 0, M = 0, gas = 0;  // C, kg/kg, kPa above the room's
+    Resin face, core;              // as each has, or would have, cured there
+    bool is_face = false;          // the layer's resin
+  };
+  // After each exchange: notes which faces have met since the last one. What their resin had of its strength before
+  // they met is lost to the bond (precure).
+  void meet(const std::vector<Reading>& cells);
+  // The panel now, its points with temperature, moisture, gas pressure and cure between those of the cells; faces with
+  // the strength that their resin has gained since they met another strand, those that have met none with nothing.
   Panel<2> panel(const std::vector<Reading>& cells) const;
+  double precured() const;  // strength lost to precure, mean over the faces that have met
   press::Checkpoint<2> checkpoint() const;
   const std::vector<press::Record>& records() const { return records_; }  // one per exchange
   const mpm::Engine<2>& engine() const { return *engine_; }
@@ -60,6 +73,9 @@ class StrandMechanics final : public MatMechanics {
   double gap() const;                  // mm
   double transit() const;              // s, of a wave through the mat as formed
   std::vector<double> places() const;  // of all points: mass below over all, times cells
+  double of_resin(std::size_t strand, double place, const std::vector<Reading>& cells, double Resin::*value) const;
+  std::vector<std::size_t> face_points() const;  // of all points, in the order of met_
+  std::vector<double> strength_of_faces(const std::vector<Reading>& cells) const;
   Factors factors_of_points(const std::vector<transfer::CellState>& state) const;
   void start();
   void soften(double part);  // of the way to the next factors
@@ -79,7 +95,11 @@ class StrandMechanics final : public MatMechanics {
   std::vector<double> thickness_;  // m, by cell
   double stress_ = 0;              // Pa
   CellFactors last_;               // at the last exchange
-  int stage_ = 0;                  // of the way from those factors to the next
+  // By point of a strand's bottom, then of its top face, strand by strand: its resin's strength at the last exchange,
+  // and when it met another strand's face; kApart while it has not.
+  static constexpr double kApart = -1;
+  std::vector<double> strength_, met_;
+  int stage_ = 0;  // of the way from those factors to the next
   Factors from_, to_;
   double waiting_ = 0;   // s of the press since the last exchange
   double velocity_ = 0;  // mm/s, of closing

@@ -25,7 +25,7 @@ struct Points {
   std::vector<double> stiffness_factor, yield_factor;  // over those at 20 C and 12 % moisture content
   std::vector<double> temperature, moisture;           // C, kg/kg
   std::vector<double> gas, cure;                       // kPa above the room's; degree of cure of the strand's resin
-  std::vector<double> bond_quality;                    // strength of that resin over that fully cured
+  std::vector<double> bond_quality;                    // strength of its bond over that fully cured
 
   std::size_t size() const { return x.size(); }
 };
@@ -103,7 +103,7 @@ constexpr auto point_fields() {
                               Lumped::kMean, true, true, true},
       PointField<Dim, double>{&P::cure, "degree_of_cure", "1", "of the resin that the strand carries", Resampled::kHeld,
                               Lumped::kMean, true, true, true},
-      PointField<Dim, double>{&P::bond_quality, "bond_quality", "1", "strength of that resin over that fully cured",
+      PointField<Dim, double>{&P::bond_quality, "bond_quality", "1", "strength of its bond over that fully cured",
                               Resampled::kHeld, Lumped::kMean, true, true, true},
   };
 }

@@ -37,6 +37,8 @@ hotpress::StrandPress strand_press(const Formed& formed, const hotpress::Setting
   how.rate = settings.rate;
   how.softening = settings.softening;
   how.cells = settings.cells;
+  for (const auto& strand : formed.panel.strands) how.resin.push_back(cases::carried_resin(c, strand.kind));
+  how.curing = c.test.curing;
   how.before_step = [&observer] { stop_if_cancelled(observer); };
   return how;
 }
@@ -57,6 +59,7 @@ class HotPress {
         observer_(observer),
         settings_(settings_of(formed.c)),
         strands_(mechanics(resume)) {
+    exchanges_ = strands_.records().size();
     if (!resume) return;
     if (resume->cycle.size() < kOwn) throw InputError("the checkpoint of a hot press has no state of its cycle");
     state_ = resume->cycle;
@@ -93,14 +96,18 @@ class HotPress {
   }
   hotpress::PressedMat mat() const { return cases::pressed_mat(formed_.c, formed_.mat); }
 
-  Panel<2> panel_at(const hotpress::Instant& now) const {
-    std::vector<hotpress::StrandMechanics::Reading> readings;
+  std::vector<hotpress::StrandMechanics::Reading> readings(const hotpress::Instant& now) const {
+    const auto of = [](const transfer::Resin& resin, double cure) {
+      return hotpress::StrandMechanics::Resin{cure, transfer::bond_strength(resin, cure)};
+    };
+    std::vector<hotpress::StrandMechanics::Reading> list;
     for (const auto& cell : now.cells) {
-      const auto& resin = cell.face ? settings_.resin_face : settings_.resin_core;
-      readings.push_back({cell.T, cell.M, 1e-3 * cell.gas, cell.cure(), transfer::bond_strength(resin, cell.cure())});
+      list.push_back({cell.T, cell.M, 1e-3 * cell.gas, of(settings_.resin_face, cell.cure_face),
+                      of(settings_.resin_core, cell.cure_core), cell.face});
     }
-    return strands_.panel(readings);
+    return list;
   }
+  Panel<2> panel_at(const hotpress::Instant& now) const { return strands_.panel(readings(now)); }
 
   double fraction(const hotpress::Instant& now) const {
     const double to = formed_.c.schedule.compactions.back();
@@ -111,6 +118,8 @@ class HotPress {
   }
 
   void after_step(const hotpress::Instant& now, const std::function<std::vector<double>()>& state) {
+    if (strands_.records().size() > exchanges_) strands_.meet(readings(now));
+    exchanges_ = strands_.records().size();
     const double done = fraction(now);
     if (keep_.frame && next_frame_ <= keep_.frames && done >= static_cast<double>(next_frame_) / keep_.frames) {
       const auto panel = panel_at(now);
@@ -190,6 +199,7 @@ class HotPress {
   std::vector<double> state_;  // to go on from
   std::optional<press::Checkpoint<2>> last_;
 
+  std::size_t exchanges_ = 0;
   int next_frame_ = 0;
   double closed_at_ = 0;
   bool kept_ = false, closed_ = false;

@@ -213,6 +213,65 @@ TEST(Strands, SoftenedAlreadyAreRefused) {
   EXPECT_THROW(StrandMechanics(panel, slow_press(panel)), InputError);
 }
 
+StrandMechanics::Reading reading(double strength) {
+  StrandMechanics::Reading cell;
+  cell.face = {.7, strength};
+  cell.core = {.2, .5 * strength};
+  cell.is_face = true;
+  return cell;
+}
+
+// Three rows, the upper one half a row above the others: while they are apart its resin gains .3 of the strength of a
+// bond. What the faces gain afterwards is their bond; outer faces meet nothing. Rows that touch from the start lose
+// nothing.
+TEST(Strands, LoseToTheBondWhatTheirResinHadBeforeTheyMet) {
+  auto panel = stack(uncoupled());
+  panel.strands.resize(3);
+  for (auto& x : panel.strands[2].points.x) x[1] += .5 * kRow;
+  panel.initial_thickness_mm = panel.top_mm = 3.5 * kRow;
+  StrandMechanics strands(panel, slow_press(panel));
+  const std::vector<transfer::CellState> even(12, {20, .12, 1e5});
+  strands.condition(even);
+  const auto all = [](double strength) { return std::vector<StrandMechanics::Reading>(12, reading(strength)); };
+  strands.meet(all(0));
+  strands.meet(all(.3));
+  strands.move(to(3.2e-3 * kRow, 2.9e-3 * kRow), even, 1);
+  strands.meet(all(.3));  // still apart
+  strands.move(to(2.9e-3 * kRow, 2.9e-3 * kRow), even, 1);
+  strands.meet(all(.5));
+  EXPECT_NEAR(strands.precured(), .5 * .3, 1e-12);
+  const auto pressed = strands.panel(all(.9));
+  for (int s = 0; s < 3; ++s) {
+    const auto& strand = pressed.strands[static_cast<std::size_t>(s)];
+    const double bottom[] = {0, .9, .6}, top[] = {.9, .6, 0};
+    for (int i = 0; i < strand.lattice.counts[0]; ++i) {
+      const auto quality = [&](int row) { return strand.points.bond_quality[strand.lattice.point({i, row})]; };
+      EXPECT_NEAR(quality(0), bottom[s], 1e-12) << s;
+      EXPECT_NEAR(quality(strand.lattice.counts[1] - 1), top[s], 1e-12) << s;
+      EXPECT_NEAR(quality(2), .9, 1e-12) << s;
+    }
+  }
+  const auto glued = glue::cure(pressed, {});
+  ASSERT_FALSE(glued.empty());
+  for (const auto& point : glued) EXPECT_NEAR(point.quality, point.a.strand == 0 ? .9 : .6, 1e-12);
+}
+
+TEST(Strands, CarryTheResinOfTheirKindOrOfTheirLayer) {
+  const auto panel = stack(uncoupled());
+  auto how = slow_press(panel);
+  const auto cures = [&] {
+    StrandMechanics strands(panel, how);
+    std::vector<StrandMechanics::Reading> cells(12, reading(.4));
+    for (std::size_t i = 6; i < 12; ++i) cells[i].is_face = false;
+    std::vector<double> cure;
+    for (const auto& strand : strands.panel(cells).strands) cure.push_back(strand.points.cure[strand.size() / 2]);
+    return cure;
+  };
+  EXPECT_THAT(cures(), testing::ElementsAre(.7, .7, .7, .2, .2, .2));
+  how.resin = {Carried::kFace, Carried::kCore, Carried::kCore, Carried::kOfItsLayer, Carried::kFace, Carried::kCore};
+  EXPECT_THAT(cures(), testing::ElementsAre(.7, .2, .2, .2, .7, .2));
+}
+
 // ---- Whole cycles of a small mat ------------------------------------------------------------------------------------
 
 const std::vector<std::string> kShort{"close to 60 % in 4 s", "hold until 8 s", "vent 2 s", "open 2 s"};
@@ -245,14 +304,17 @@ Whole whole(int threads, double step, const Stop* from = nullptr, const std::vec
   Whole all;
   Watch watch;
   std::size_t exchanges = 0;
-  watch.step = [&](const Instant&, const std::function<std::vector<double>()>& state) {
+  std::vector<StrandMechanics::Reading> cells;
+  watch.step = [&](const Instant& now, const std::function<std::vector<double>()>& state) {
+    cells.assign(12, reading(.1 * std::max(0., now.time - 2)));  // as if resin set while the press closes
     if (strands.records().size() == exchanges) return;
     exchanges = strands.records().size();
+    strands.meet(cells);
     if (exchanges % 9 == 4) all.stops.push_back({strands.checkpoint(), state()});
   };
   all.cycle = press_hot(test::settings_of(Mechanics::kStrands, 6, step, schedule), mat_of(wood), strands, watch,
                         from ? from->state : std::vector<double>());
-  all.panel = strands.panel(std::vector<StrandMechanics::Reading>(12));
+  all.panel = strands.panel(cells);
   all.records = strands.records();
   return all;
 }
