@@ -208,6 +208,11 @@ void add_glue_and_tests(Table& t) {
 
 void add_run(Table& t) {
   t.add(keys_of_case("run", run_settings()));
+  auto& seed = t.at("run.seed");  // also of the spots of resin
+  seed.set = [set = seed.set](Case& c, const std::string& name, const Value& value) {
+    set(c, name, value);
+    c.test.curing.coverage.seed = c.seed;
+  };
   t.at("run.threads").changes_results = t.at("run.checkpoint_interval_s").changes_results = false;
 }
 

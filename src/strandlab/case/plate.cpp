@@ -67,6 +67,8 @@ vtest::PlateOptions plate_options(const Case& c) {
   options.compliance_n_mm_per_MPa = c.test.compliance_n_mm_per_MPa;
   options.elements_through_strand = c.test.elements_through_strand;
   options.element_length_mm = c.test.element_length_mm;
+  if (c.test.curing.coverage.spot_mm > 0)
+    throw InputError("glue.spot_mm: spots of resin are laid on sections only; leave it at 0 for a mat in 3D");
   options.curing = c.test.curing;
   return options;
 }

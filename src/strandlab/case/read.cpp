@@ -603,6 +603,11 @@ void check_case(const Case& c, const std::vector<Given>& given, const std::strin
   check_hotpress(c, [&](const std::string& key, const std::string& message) {
     throw InputError(fmt::format("{}: {}: {}", where_of(given, source, split(key)), key, message));
   });
+  try {
+    glue::check(c.test.curing.coverage);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}: glue.coverage: {}", where_of(given, source, {"glue", "coverage"}), e.what()));
+  }
   mat::Layup rows;
   try {
     rows = layup(c);

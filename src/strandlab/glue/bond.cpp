@@ -42,6 +42,11 @@ Bond unfinished(const Bond& bond, double quality) {
   return {taken(bond.compliance_t) / quality + (1 / quality - 1) * kUnfinished, bond.compliance_n};
 }
 
+Bond at_point(const Bond& bond, double quality, double lacking) {
+  if (lacking == 0) return unfinished(bond, quality);
+  return unfinished({taken(bond.compliance_t) + lacking, bond.compliance_n}, quality);
+}
+
 std::vector<std::string> remarks(const Bond& bond) {
   std::vector<std::string> sentences;
   add_remark("D_n", bond.compliance_n, sentences);

@@ -40,6 +40,10 @@ inline constexpr double kUnfinished = .0105;
 // bond is perfect only where it is finished; across the line it stays as it is. Judgement.
 Bond unfinished(const Bond& bond, double quality);
 
+// The bond of a glue point: of this quality, and with `lacking` (mm/MPa) more 1/D_t where resin does not cover all
+// (coverage.hpp).
+Bond at_point(const Bond& bond, double quality, double lacking);
+
 // What is not taken as it is given (a negative compliance, one beyond the softest), as sentences.
 std::vector<std::string> remarks(const Bond& bond);
 

@@ -282,7 +282,8 @@ class Patches {
 };
 
 // Glue points of a strand's top face, by facing strand.
-void append_points(const Patches& patches, std::size_t a, double highest, std::vector<GluePoint<3>>& points) {
+void append_points(const Patches& patches, std::size_t a, const CuringOptions& options,
+                   std::vector<GluePoint<3>>& points) {
   constexpr double kTouch = 1e-9;  // of a corner's share: round-off, no contact
   const auto others = patches.over(a);
   const auto& top = patches.top(a);
@@ -298,7 +299,7 @@ void append_points(const Patches& patches, std::size_t a, double highest, std::v
     const auto share = share_of(top, corner);
     for (std::size_t k = 0; k < others.size(); ++k) {
       if (!meetings[k]) continue;
-      const auto part = facing_part(share, at, others, meetings, k, highest);
+      const auto part = facing_part(share, at, others, meetings, k, options.max_gap_mm);
       if (part.area < kTouch) continue;
       const auto& m = *meetings[k];
       const auto& other = others[k];
@@ -315,6 +316,7 @@ void append_points(const Patches& patches, std::size_t a, double highest, std::v
       point.gap = (point.b.position - point.a.position).dot(point.normal);
       const Tangents t = top.tangents(at);
       point.area = part.area * t.col(0).cross(t.col(1)).norm();
+      point.lacking = lacking(options.coverage, options.coverage.mean);
       by_other[k].push_back(point);
     }
   }
@@ -328,7 +330,7 @@ std::vector<GluePoint<3>> cure(const Panel<3>& panel, const CuringOptions& optio
   std::vector<GluePoint<3>> points;
   if (panel.strands.empty()) return points;
   const Patches patches(panel, options);
-  for (std::size_t a = 0; a < panel.strands.size(); ++a) append_points(patches, a, options.max_gap_mm, points);
+  for (std::size_t a = 0; a < panel.strands.size(); ++a) append_points(patches, a, options, points);
   return points;
 }
 

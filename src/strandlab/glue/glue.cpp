@@ -180,7 +180,38 @@ double quality_at(const Panel<2>& panel, const FacePoint<2>& at) {
       .bond_quality[strand.lattice.point({at.segment, at.side == Side::kTop ? strand.lattice.counts[1] - 1 : 0})];
 }
 
-void append_points(const Panel<2>& panel, const Pair& pair, const Line& line, std::vector<GluePoint<2>>& points) {
+// Resin on the faces of a panel.
+class Resin {
+ public:
+  Resin(const Panel<2>& panel, const Coverage& coverage) : coverage_(coverage) {
+    if (coverage.spot_mm == 0) return;
+    for (const auto& strand : panel.strands) {
+      lengths_.push_back(strand.lattice.spacing[0]);
+      const double length = lengths_.back() * strand.lattice.counts[0];
+      for (int side = 0; side < 2; ++side) spots_.emplace_back(coverage, length, spots_.size());
+    }
+  }
+
+  // What a bond lacks between two faces, from `before` to `after` (mm as formed) about these points.
+  double lacking(const FacePoint<2>& a, const FacePoint<2>& b, double before, double after) const {
+    const bool even = spots_.empty();
+    return glue::lacking(coverage_,
+                         even ? coverage_.mean : .5 * (covered(a, before, after) + covered(b, before, after)));
+  }
+
+ private:
+  double covered(const FacePoint<2>& at, double before, double after) const {
+    const auto strand = static_cast<std::size_t>(at.strand);
+    const double place = (at.segment + at.xi) * lengths_[strand];
+    return spots_[2 * strand + (at.side == Side::kTop ? 1 : 0)].covered(place - before, place + after);
+  }
+  const Coverage& coverage_;
+  std::vector<double> lengths_;  // mm, of a segment, by strand
+  std::vector<Spots> spots_;     // by strand: on its bottom, on its top
+};
+
+void append_points(const Panel<2>& panel, const Resin& resin, const Pair& pair, const Line& line,
+                   std::vector<GluePoint<2>>& points) {
   const double step = (line.last - line.first) / line.intervals;
   for (int k = 0; k <= line.intervals; ++k) {
     const double s = k == line.intervals ? line.last : line.first + k * step;
@@ -191,10 +222,12 @@ void append_points(const Panel<2>& panel, const Pair& pair, const Line& line, st
     point.b = face_point(pair.b, line.strand_b, Side::kBottom, *other);
     point.normal = (pair.a.normal_at(s) - pair.b.normal_at(*other)).normalized();
     point.gap = (point.b.position - point.a.position).dot(point.normal);
-    point.area =
-        pair.a.arc_at(std::min(s + 0.5 * step, line.last)) - pair.a.arc_at(std::max(s - 0.5 * step, line.first));
+    const double from = std::max(s - 0.5 * step, line.first), to = std::min(s + 0.5 * step, line.last);
+    point.area = pair.a.arc_at(to) - pair.a.arc_at(from);
     point.quality = .5 * (quality_at(panel, point.a) + quality_at(panel, point.b));
-    if (point.quality >= kLeastQuality) points.push_back(point);
+    const double spacing = panel.strands[static_cast<std::size_t>(line.strand_a)].lattice.spacing[0];
+    point.lacking = resin.lacking(point.a, point.b, (s - from) * spacing, (to - s) * spacing);
+    if (point.quality >= kLeastQuality && std::isfinite(point.lacking)) points.push_back(point);
   }
 }
 
@@ -242,11 +275,13 @@ void check(const CuringOptions& options) {
         fmt::format("spacing of glue points of {} mm: it must be positive, or 0 for that of the material points",
                     options.point_spacing_mm));
   }
+  check(options.coverage);
 }
 
 std::vector<GluePoint<2>> cure(const Panel<2>& panel, const CuringOptions& options) {
   check(options);
   const auto faces = make_faces(panel);
+  const Resin resin(panel, options.coverage);
   const int strands = static_cast<int>(panel.strands.size());
   std::vector<std::vector<Neighbour>> over(panel.strands.size()), under(panel.strands.size());
   for (int a = 0; a < strands; ++a) {
@@ -270,8 +305,8 @@ std::vector<GluePoint<2>> cure(const Panel<2>& panel, const CuringOptions& optio
         const double on_b = std::abs(*glued(pair, last) - *glued(pair, first)) * upper.lattice.spacing[0];
         const double length = 0.5 * ((last - first) * lower.lattice.spacing[0] + on_b);  // as formed
         if (length < 1e-3 * spacing) continue;                                           // a touch, not a line
-        append_points(panel, pair, {a, b, std::max(1, static_cast<int>(std::lround(length / spacing))), first, last},
-                      points);
+        append_points(panel, resin, pair,
+                      {a, b, std::max(1, static_cast<int>(std::lround(length / spacing))), first, last}, points);
       }
     }
   }

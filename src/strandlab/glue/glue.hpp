@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "strandlab/glue/coverage.hpp"
 #include "strandlab/panel/panel.hpp"
 
 namespace strandlab::glue {
@@ -45,11 +46,13 @@ struct GluePoint {
   double area = 0;     // mm (2D: deformed length x 1 mm of depth) or mm^2
   double gap = 0;      // mm, signed distance along the normal
   double quality = 1;  // of the bond (bond.hpp)
+  double lacking = 0;  // mm/MPa, 1/D_t for want of resin (coverage.hpp)
 };
 
 struct CuringOptions {
   double max_gap_mm = 0.1;      // faces further apart than this do not bond
   double point_spacing_mm = 0;  // along the strand as formed, between glue points; 0: as the material points
+  Coverage coverage;            // with resin
 };
 
 // Glue points of a pressed panel. A face point is glued to the nearest facing strand, where its projection along its
@@ -59,8 +62,10 @@ struct CuringOptions {
 // constraint per point, no more points than face corners, and normals interpolated from the corners' mean normals: a
 // perfect bond does not lock. Strand ends do not bond. Where the points know how far their resin's strength has come
 // (Points::bond_quality) a glue point has the mean of its two faces', and is none where that is below kLeastQuality.
+// Resin covers the stretch of face that a glue point stands for as it covers the two faces there on average; where it
+// covers nothing there is no glue point.
 // Deterministic order: by strand (of its top face), then by facing strand, then along the face. Throws InputError for a
-// gap that is not positive or a negative spacing.
+// gap that is not positive, a negative spacing or a coverage that cannot be.
 std::vector<GluePoint<2>> cure(const Panel<2>& panel, const CuringOptions& options);
 
 // The same of a panel: one glue point for each corner of the lower strand's top face and each strand that faces it

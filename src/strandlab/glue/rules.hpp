@@ -18,7 +18,7 @@ inline double overlap_in_contact(double thickness_a, double thickness_b) {
   return 0.5 * std::min(thickness_a, thickness_b);
 }
 
-// Throws InputError for a gap that is not positive or a negative spacing.
+// Throws InputError for a gap that is not positive, a negative spacing or a coverage that cannot be.
 void check(const CuringOptions& options);
 
 }  // namespace strandlab::glue

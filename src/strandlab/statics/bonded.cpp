@@ -30,7 +30,7 @@ template <int Dim>
 void BondedPanel<Dim>::glue(const glue::Bond& bond, SolveTimes& times) {
   bonds_.clear();
   for (const auto& spring : parts_.springs())
-    bonds_.push_back(glue::stiffness(glue::unfinished(bond, spring.quality), penalty_));
+    bonds_.push_back(glue::stiffness(glue::at_point(bond, spring.quality, spring.lacking), penalty_));
   {
     const Stopwatch watch(times.assemble);
     stiffness_ = parts_.with(bonds_);

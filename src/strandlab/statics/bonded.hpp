@@ -39,7 +39,8 @@ class BondedPanel {
   // Sums the wood, once for all bonds. Throws RunError for an inverted element.
   BondedPanel(const Mesh<Dim>& mesh, std::vector<Spring<Dim>> springs, double penalty);
 
-  // Glues the panel with this bond, in place of the one before; springs of less quality with what it makes of it. The
+  // Glues the panel with this bond, in place of the one before; springs of less quality or resin with what it makes of
+  // it. The
   // first time it also analyses the matrix, whose pattern is that of every bond. Throws OutOfMemory.
   void glue(const glue::Bond& bond, SolveTimes& times);
 

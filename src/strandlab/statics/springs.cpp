@@ -97,6 +97,7 @@ Spring<3> make_spring(const Mesh<3>& mesh, const glue::GluePoint<3>& point) {
   Spring<3> spring;
   spring.area = point.area;
   spring.quality = point.quality;
+  spring.lacking = point.lacking;
   const auto& part =
       mesh.strands[static_cast<std::size_t>(mesh.mesh_of_strand[static_cast<std::size_t>(point.a.strand)])];
   spring.stiffened = std::max(1.0, kLeastShare * part.elements.spacing[0] * part.elements.spacing[1] / point.area);
@@ -140,6 +141,7 @@ std::vector<Spring<2>> make_springs(const Mesh<2>& mesh, const std::vector<glue:
           make_spring(mesh, {a.first, a.second, a.xi}, {b.first, b.second, b.xi}, point.normal, point.area));
     }
     springs.back().quality = point.quality;
+    springs.back().lacking = point.lacking;
   }
   return springs;
 }

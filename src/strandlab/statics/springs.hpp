@@ -17,7 +17,7 @@ struct Spring {
   std::array<int, kCorners<Dim>> nodes{};
   std::array<ElementDofs<Dim>, Dim> jump;  // along the tangents, then the normal
   double area = 0;                         // mm (2D) or mm^2
-  double quality = 1;                      // of the bond (glue/bond.hpp)
+  double quality = 1, lacking = 0;         // of the bond (glue/bond.hpp)
   double stiffened = 1;                    // penalty of a perfect bond here over that of its area
 
   double tangential(const glue::BondStiffness& glue) const {

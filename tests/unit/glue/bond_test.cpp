@@ -44,6 +44,15 @@ TEST(Bond, IsSofterWhereItIsUnfinished) {
   for (const double given : {-.01, 0., .01}) EXPECT_EQ(unfinished({given, 0}, 1).compliance_t, given);
 }
 
+// Where resin does not cover all, the bond given has so much more compliance, before what is unfinished of it.
+TEST(Bond, IsSofterWhereResinIsLacking) {
+  EXPECT_EQ(at_point({.01, .002}, 1, 0).compliance_t, .01);
+  EXPECT_EQ(at_point({-.01, 0}, 1, 0).compliance_t, -.01);
+  EXPECT_DOUBLE_EQ(at_point({.01, .002}, 1, .02).compliance_t, .03);
+  EXPECT_DOUBLE_EQ(at_point({-.01, .002}, .5, .02).compliance_t, .0505);
+  EXPECT_DOUBLE_EQ(at_point({.01, .002}, .5, .02).compliance_n, .002);
+}
+
 TEST(Bond, IsNoSofterThanTheFloorAndSaysSo) {
   EXPECT_EQ(stiffness({2000, 0}, kPenalty).tangential, kSoftest);
   EXPECT_EQ(stiffness({1000, 0}, kPenalty).tangential, kSoftest);
