@@ -145,7 +145,7 @@ async function chartsShowTheTables() {
       ofTest.filter(row => row.model === model && row.compaction === last).map(row => [Number(row.compliance_t_mm_per_MPa), Number(row.modulus_MPa)])));
     check(glue.series.length === compactions.length + models.length && glue.series.every(s => s.name), `${test}: models of the last state only, all with names`);
     for (const [axis, x] of [['density', c => density.get(c)], ['compaction', c => 100 * c]]) {
-      await page.locator(`#chart-${id}`).getByText(axis, {exact: true}).click();
+      await page.locator(`#chart-${id}`).getByLabel(axis, {exact: true}).check({force: true});
       const over = await chart(page, id);
       compliances.forEach((d, i) => same(`${test} of ${d} over ${axis}`, over.series[i].data,
         rows.filter(row => row.compliance_t_mm_per_MPa === d).map(row => [x(row.compaction), Number(row.modulus_MPa)])));
@@ -155,7 +155,7 @@ async function chartsShowTheTables() {
     }
     const names = (await chart(page, id)).series.map(s => s.name);
     check(names[0] === 'perfect bond' && names[1].startsWith('PF 25'), `lines have the names of glues: ${names}`);
-    await page.locator(`#chart-${id}`).getByText('glue', {exact: true}).click();
+    await page.locator(`#chart-${id}`).getByLabel('glue', {exact: true}).check({force: true});
     const shown = await page.locator(`#chart-${id} table tbody tr`).count();
     check(shown === compactions.length, `${id}: a row of the table below for each state: ${shown}`);
   }
@@ -302,7 +302,8 @@ async function pointingAtCharts() {
   const host = page.locator('#chart-modulus-tension .plot');
   await host.scrollIntoViewIfNeeded();
   const box = await host.boundingBox();
-  await host.hover({position: {x: 64 + 2, y: box.height / 2}});
+  await host.hover({position: {x: 100, y: box.height / 2}});
+  await host.hover({position: {x: 66, y: box.height / 2}});
   await page.waitForFunction(() => document.querySelector('.pointed')?.getBoundingClientRect().width > 0);
   await settled(page);
   const told = await page.locator('.pointed').last().evaluate(e => ({rows: e.querySelectorAll('b').length, text: e.textContent,
@@ -365,7 +366,7 @@ async function legible(file, scheme, width) {
   const where = `${scheme}, ${width} px`;
   const page_ = await other.evaluate(() => [document.scrollingElement.scrollWidth, window.innerWidth,
                                             getComputedStyle(document.body).backgroundColor]);
-  const wide = await other.evaluate(() => [...document.querySelectorAll('main *')].filter(e => !e.closest('svg, pre, .sr') &&
+  const wide = await other.evaluate(() => [...document.querySelectorAll('main *')].filter(e => !e.closest('svg, pre, .sr') && e.checkVisibility() &&
     e.getBoundingClientRect().right > window.innerWidth + 0.5).map(e => `${e.tagName}.${e.className}`).slice(0, 4));
   check(page_[0] <= page_[1] && wide.length === 0, `${where}: the page is ${page_[0]} px wide: ${wide}`);
   const dark = page_[2].match(/\d+/g).map(Number).every(v => v < 60);

@@ -31,7 +31,7 @@ const std::vector<Meaning>& glossary() {
       {"compaction", "1 - thickness/initial thickness of the mat: 0 as formed, .5 at half the thickness."},
       {"1/D_t",
        "Glue-line compliance: by how many mm two strands slide on each other per MPa of shear stress in the line, "
-       "mm/MPa; 0 is perfect, larger is worse (scale below)."},
+       "mm/MPa; 0 is perfect, larger is worse."},
       {"perfect bond", "A line that does not slide at all, 1/D_t = 0."},
       {"PF", "Phenol-formaldehyde resin."},
       {"PVA", "Polyvinyl acetate, white glue."},
