@@ -11,13 +11,23 @@ from report import HOSTILE, data_of
 MARK = '<script type="application/json" id="data">'
 
 
+def with_hostile_names(folder):
+    """Such names in the record and the mat of a run, from which the program writes the page's head."""
+    record = json.loads(pathlib.Path(folder, "run.json").read_text(encoding="utf-8"))
+    record["case_name"] = HOSTILE
+    record["steps"]["press"]["findings"].append({"level": "warning", "text": HOSTILE, "about": "board", "chart": "stress", "docs": HOSTILE})
+    pathlib.Path(folder, "run.json").write_text(json.dumps(record), encoding="utf-8")
+    mat = json.loads(pathlib.Path(folder, "mat.json").read_text(encoding="utf-8"))
+    for layer in mat["layers"]:
+        layer["role"] = HOSTILE if layer["role"] == "surface" else layer["role"]
+    pathlib.Path(folder, "mat.json").write_text(json.dumps(mat), encoding="utf-8")
+
+
 def hostile_page(page):
-    """The page with such names wherever a name of the user can stand; markup in data is escaped as the program does."""
+    """Such names in the data as well, wherever a name of the user can stand; markup in data is escaped as the program does."""
     data = data_of(page)
     run = data["run"]
-    run["record"]["case_name"] = HOSTILE
     run["record"]["machine"]["host"] = HOSTILE
-    run["findings"] = [{"level": "warning", "text": HOSTILE}]
     run["case_text"] = HOSTILE
     for material in run["case"]["materials"]:
         material["name"] = HOSTILE
@@ -25,10 +35,10 @@ def hostile_page(page):
         kind["material"] = HOSTILE
         if kind["name"] == "surface":
             kind["name"] = HOSTILE
-    for layer in run["mat"]["layers"]:
-        layer["role"] = HOSTILE if layer["role"] == "surface" else layer["role"]
     for strand in run["frames"]["strands"]:
         strand["kind"] = HOSTILE if strand["kind"] == "surface" else strand["kind"]
+    for glue in run["words"]["glues"]:
+        glue["name"] = HOSTILE
     for table in ("moduli.csv", "theory.csv"):
         quoted = '"' + HOSTILE.replace('"', '""') + '"'
         run["tables"][table] = run["tables"][table].replace("tension", quoted).replace("rule of mixtures", quoted)
@@ -44,7 +54,10 @@ if __name__ == "__main__":
         # The mat of a file: its length, 5 mm, is not the case's.
         result = strandlab("run", "a.toml", "-o", "out", "--set", "mat.file=formed/mat.json", "--set", "mat.length_mm=100")
         check(result.returncode == DONE, f"run: {result.stderr}")
-        pathlib.Path("hostile.html").write_text(hostile_page("out/report.html"), encoding="utf-8")
+        shutil.copytree("out", "hostile")
+        with_hostile_names("hostile")
+        check(strandlab("report", "hostile").returncode == DONE, "report with hostile names")
+        pathlib.Path("hostile.html").write_text(hostile_page("hostile/report.html"), encoding="utf-8")
         node = subprocess.run([shutil.which("node"), SOURCE / "web" / "test" / "report.mjs", "out", "hostile.html"],
                               capture_output=True, text=True, timeout=240, check=False)
         print(node.stdout, node.stderr)

@@ -56,5 +56,17 @@ def main():
               f"docs/warnings.md lacks the warning \"{warning}\"")
 
 
+def glossary():
+    """What the report's page tells on hover is what docs/glossary.md says."""
+    source = (SOURCE / "src" / "strandlab" / "report" / "glossary.cpp").read_text(encoding="utf-8")
+    page = (SOURCE / "docs" / "glossary.md").read_text(encoding="utf-8")
+    begin = source.index("list{")
+    texts = [unquoted(found) for found in re.findall(LITERAL + r"(?:\s*" + LITERAL + ")*", source[begin:source.index("return list", begin)])]
+    check(len(texts) > 20 and len(texts) % 2 == 0, f"words with their meanings in report/glossary.cpp: {len(texts)} texts")
+    for word, means in zip(texts[::2], texts[1::2]):
+        check(word in page and means.rstrip(".") in page, f"docs/glossary.md does not say of {word}: {means}")
+
+
 main()
+glossary()
 finish()

@@ -3,13 +3,14 @@
 import * as echarts from 'echarts/core';
 import {LineChart, ScatterChart} from 'echarts/charts';
 import {AriaComponent, GridComponent, LegendComponent, TooltipComponent} from 'echarts/components';
+import {LabelLayout} from 'echarts/features';
 import {SVGRenderer} from 'echarts/renderers';
-import {button, downloadText, el} from './dom';
-import {family, okabeIto} from './colour';
+import {button, downloadText, el, menu} from './dom';
+import {family, okabeIto, readable} from './colour';
 import type {Table} from './table';
 import {colour, isDark, onThemeChange} from './theme';
 
-echarts.use([LineChart, ScatterChart, GridComponent, LegendComponent, TooltipComponent, AriaComponent, SVGRenderer]);
+echarts.use([LineChart, ScatterChart, GridComponent, LegendComponent, TooltipComponent, AriaComponent, LabelLayout, SVGRenderer]);
 
 export interface Series {
   name: string;
@@ -34,6 +35,7 @@ export interface ChartSpec {
   x?: {min?: number; max?: number};
   y?: {min?: number; max?: number; hidden?: boolean};
   bare?: boolean;  // the plot alone, without title and buttons
+  labels?: boolean;  // names stand at the ends of the lines, in place of a legend
   item?: boolean;  // a curve that is not a function of x: tell its points one by one
   grid?: {left?: number; right?: number; top?: number; bottom?: number};
 }
@@ -47,7 +49,14 @@ const dashes: (number[] | 'dashed')[] = [[7, 4], [2, 3], [10, 3, 2, 3], [4, 4]];
 export function formatNumber(value: number): string {
   if (!Number.isFinite(value)) return '–';
   if (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e6)) return value.toExponential(2).replace('e', '·10^');
-  return Number(value.toPrecision(4)).toLocaleString('en', {maximumFractionDigits: 6});
+  return Number(value.toPrecision(4)).toLocaleString('en', {maximumFractionDigits: 6}).replace(/,/g, narrowSpace);
+}
+const narrowSpace = '\u202f';  // does not break
+
+interface Pointed {
+  seriesName?: string;
+  color?: string;
+  value: [number, number];
 }
 
 export class Chart {
@@ -57,10 +66,10 @@ export class Chart {
 
   constructor(public spec: ChartSpec) {
     this.host = el('div', {class: 'plot'});
-    const tools = el('div', {class: 'tools'},
+    const tools = menu(`${spec.title}: downloads`,
       button('CSV', `${spec.title}: download the data as CSV`, () => this.downloadCsv()),
       button('SVG', `${spec.title}: download the picture as SVG`, () => this.downloadSvg()));
-    this.element = spec.bare ? this.host : el('figure', {class: 'card chart', 'data-chart': spec.id},
+    this.element = spec.bare ? this.host : el('figure', {class: 'card chart', id: `chart-${spec.id}`, 'data-chart': spec.id},
       el('figcaption', {}, el('h3', {}, spec.title), tools),
       spec.note ? el('p', {class: 'note'}, spec.note) : null, this.host);
     this.chart = echarts.init(this.host, null, {renderer: 'svg', width: 480, height: 300});
@@ -103,8 +112,8 @@ export class Chart {
   }
 
   private series(s: Series, index: number): object {
-    const paint = s.ink ? colour('ink-soft') : s.colour ??
-      (s.family ? family(s.family[1], isDark())[s.family[0]] : okabeIto[index % okabeIto.length]);
+    const paint = s.ink ? colour('ink-soft') : readable(s.colour ??
+      (s.family ? family(s.family[1], isDark())[s.family[0]]! : okabeIto[index % okabeIto.length]!), colour('card'), 3);
     // References without a name continue the one before.
     const references = this.spec.series.slice(0, index + 1).filter(other => other.style === 'dashed' && other.name !== '').length - 1;
     const style = s.style ?? 'line';
@@ -122,8 +131,42 @@ export class Chart {
       },
       areaStyle: style === 'area' ? {opacity: 0.25} : undefined,
       itemStyle: {color: paint},
+      endLabel: this.spec.labels ? {
+        show: true, formatter: s.name, color: readable(s.ink ? colour('ink') : paint, colour('card'), 4.5), distance: 8, fontSize: 12,
+        width: this.labelWidth() - 12, overflow: 'truncate',
+      } : undefined,
+      labelLayout: this.spec.labels ? {moveOverlap: 'shiftY'} : undefined,
       emphasis: {focus: 'series'},
     };
+  }
+
+  // Room for names at the ends of lines.
+  private labelWidth(): number {
+    const longest = Math.max(...this.spec.series.map(s => s.name.length));
+    return Math.min(20 + 6.6 * longest, this.chart.getWidth() * 0.36);
+  }
+
+  private told(points: Pointed | Pointed[]): HTMLElement {
+    const {spec} = this;
+    const list = Array.isArray(points) ? points : [points];
+    const row = (point: Pointed) => {
+      const swatch = el('i', {});
+      swatch.style.background = point.color ?? '';
+      const value = spec.item ? `${formatNumber(point.value[0])}, ${formatNumber(point.value[1])}` : formatNumber(point.value[1]);
+      return el('div', {}, swatch, point.seriesName ?? '', ' ', el('b', {}, value));
+    };
+    return el('div', {class: 'pointed'}, spec.item ? `${spec.xLabel}; ${spec.yLabel || 'mm'}` : `${spec.xLabel}: ${formatNumber(list[0]?.value[0] ?? NaN)}`,
+      ...list.filter(point => Number.isFinite(point.value[1])).map(row));
+  }
+
+  // Beside the pointer, within the window.
+  private place(point: number[], size: {contentSize: number[]}): number[] {
+    const box = this.host.getBoundingClientRect();
+    const [width, height] = size.contentSize as [number, number];
+    const [px, py] = point as [number, number];
+    const left = box.left + px + 16 + width < window.innerWidth - 8 ? px + 16 : px - 16 - width;
+    const top = Math.min(py + 16, window.innerHeight - 8 - height - box.top);
+    return [Math.max(left, 8 - box.left), Math.max(top, 8 - box.top)];
   }
 
   private option(): Record<string, unknown> {
@@ -141,26 +184,27 @@ export class Chart {
     const values = spec.series.flatMap(s => s.y).filter(Number.isFinite);
     const fromZero = Math.min(...values) > -0.02 * Math.max(...values) && Math.min(...values) < 0.25 * Math.max(...values);
     const named = spec.series.filter(s => s.name !== '');
-    const rows = named.length > 1 ? Math.ceil(named.reduce((sum, s) => sum + 40 + 6.2 * Math.min(s.name.length, 28), 0) /
+    const rows = named.length > 1 && !spec.labels && !spec.bare ? Math.ceil(named.reduce((sum, s) => sum + 40 + 6.2 * Math.min(s.name.length, 28), 0) /
                                               Math.max(200, this.chart.getWidth() - 16)) : 0;
     return {
       animation: false,
       backgroundColor: 'transparent',
       textStyle: {fontFamily: 'system-ui, sans-serif'},
       aria: {enabled: true, label: {description: `${spec.title}. ${spec.summary}`}},
-      grid: {left: 64, right: 18, top: 14 + 21 * rows, bottom: 46, ...spec.grid},
+      grid: {left: 64, right: spec.labels ? this.labelWidth() : 18, top: 14 + 21 * rows, bottom: 46, ...spec.grid},
       legend: rows === 0 ? {show: false} : {
         left: 0, top: 0, width: this.chart.getWidth() - 8, itemWidth: 22, itemHeight: 9, itemGap: narrow ? 10 : 14,
         textStyle: {...text, color: ink}, inactiveColor: soft, data: named.map(s => ({name: s.name, itemStyle: {opacity: s.style === 'marked' ? 1 : 0}})),
         formatter: (label: string) => (label.length > 28 ? label.slice(0, 27) + '…' : label),
       },
       tooltip: {
-        trigger: spec.item ? 'item' : 'axis', renderMode: 'richText', confine: true, backgroundColor: colour('raised'), borderColor: colour('line'),
-        textStyle: {color: ink, fontSize: 12}, valueFormatter: (value: unknown) => formatNumber(Number(value)),
+        trigger: spec.item ? 'item' : 'axis', appendTo: 'body', backgroundColor: colour('raised'), borderColor: colour('line'),
+        textStyle: {color: ink, fontSize: 12}, formatter: (points: Pointed | Pointed[]) => this.told(points),
+        position: (point: number[], _: unknown, __: unknown, ___: unknown, size: {contentSize: number[]}) => this.place(point, size),
         axisPointer: {type: 'line', lineStyle: {color: soft}, snap: true,
                       label: {formatter: (p: {value: number}) => `${spec.xLabel}: ${formatNumber(p.value)}`}},
       },
-      xAxis: {...axis, ...name(spec.xLabel), nameGap: 28, min: spec.x?.min, max: spec.x?.max},
+      xAxis: {...axis, ...name(spec.xLabel), axisLabel: {...axis.axisLabel, ...(spec.labels ? {showMaxLabel: false} : {})}, nameGap: 28, min: spec.x?.min, max: spec.x?.max},
       yAxis: {
         ...axis, ...name(spec.yLabel), nameGap: 48, min: spec.y?.min ?? (fromZero ? 0 : undefined), max: spec.y?.max,
         ...(spec.y?.hidden ? {axisLabel: {show: false}, axisTick: {show: false}, splitLine: {show: false}} : {}),

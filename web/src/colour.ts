@@ -59,3 +59,26 @@ export function family(count: number, dark: boolean): string[] {
   return Array.from({length: count}, (_, i) =>
     hex(interpolate(viridis, count < 2 ? (low + high) / 2 : low + ((high - low) * i) / (count - 1))));
 }
+
+// WCAG's relative luminance, and the contrast of two colours: 1 (the same) to 21 (black on white).
+export function luminance(colour: Rgb): number {
+  const [r, g, b] = colour.map(v => (v / 255 <= 0.03928 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4)) as Rgb;
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+}
+
+export function contrast(a: Rgb, b: Rgb): number {
+  const [light, dark] = [luminance(a), luminance(b)].sort((p, q) => q - p) as [number, number];
+  return (light + 0.05) / (dark + 0.05);
+}
+
+// The colour itself where it stands out from its background by the contrast, else the nearest darker one on a light
+// background, or lighter one on a dark one, that does.
+export function readable(colour: string, background: string, least: number): string {
+  const ground = ofHex(background);
+  const end: Rgb = luminance(ground) > 0.18 ? [0, 0, 0] : [255, 255, 255];
+  for (let share = 0; share < 1; share += 0.02) {
+    const tried = mix(ofHex(colour), end, share);
+    if (contrast(tried, ground) >= least) return hex(tried);
+  }
+  return hex(end);
+}

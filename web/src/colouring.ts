@@ -10,6 +10,8 @@ export interface Colouring {
   map: Rgb[];
   low: number;
   high: number;
+  cutsLow: boolean;  // values lie beyond this end of the scale, in its colour
+  cutsHigh: boolean;
 }
 
 // Colours of a field: those of one kind of quantity that can be told apart from the other maps on the page.
@@ -54,7 +56,15 @@ function shownRange(film: Film, frames: Frame[], index: number, diverging: boole
 export function colouringsOf(film: Film, frames = film.frames): Colouring[] {
   return film.fields.map((field, index) => {
     const [low, high] = shownRange(film, frames, index, field.diverging);
-    return {key: field.key, label: field.label, unit: field.unit, digits: field.digits, map: mapOf(field), low, high};
+    let least = 255, most = 0;
+    for (const frame of frames) {
+      for (const byte of frame.fields[index]!) {
+        least = Math.min(least, byte);
+        most = Math.max(most, byte);
+      }
+    }
+    return {key: field.key, label: field.label, unit: field.unit, digits: field.digits, map: mapOf(field), low, high,
+            cutsLow: valueOf(field, least) < low, cutsHigh: valueOf(field, most) > high};
   });
 }
 

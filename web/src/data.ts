@@ -117,16 +117,11 @@ export interface PackedFrames {
   frames: PackedFrame[];
 }
 
-// What a run's numbers say, in the program's words.
-export interface Finding {
-  level: 'good' | 'note' | 'warning';
-  text: string;
-}
-
 // What names in the tables are called.
 export interface Words {
   tests: Record<string, string>;
   quantities: Record<string, {title: string; axis: string; factor: number}>;
+  glues: {compliance_t_mm_per_MPa: number; name: string}[];
 }
 
 export interface Run {
@@ -134,7 +129,6 @@ export interface Run {
   case_text: string;
   record: RunRecord;
   mat: MatData | null;
-  findings: Finding[];  // warnings first
   words: Words;
   tables: Record<string, string>;
   frames: PackedFrames;

@@ -31,6 +31,18 @@ export function button(label: string, title: string, act: () => void): HTMLButto
   return el('button', {type: 'button', title, 'aria-label': title, click: act}, label);
 }
 
+// Buttons in a row; on a narrow screen behind one that opens them.
+export function menu(title: string, ...buttons: HTMLButtonElement[]): HTMLElement {
+  const details = el('details', {class: 'menu'}, el('summary', {'aria-label': title, title}, '⋯'), el('div', {class: 'tools'}, ...buttons));
+  const narrow = window.matchMedia('(max-width: 640px)');
+  const fit = () => {
+    details.open = !narrow.matches;
+  };
+  narrow.addEventListener('change', fit);
+  fit();
+  return details;
+}
+
 // One of several: a group of radio buttons that looks like a row of buttons.
 export function choice<T extends string>(
   legend: string, options: {value: T; label: string}[], chosen: T, act: (value: T) => void): HTMLFieldSetElement {

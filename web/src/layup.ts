@@ -38,7 +38,7 @@ export function layupFigure(mat: MatData, c: CaseData, record: RunRecord): HTMLE
     const y = tops[row] ?? 0;
     const rowThick = height * (thicknesses[row] ?? 0) / total;
     layer.strands.forEach((strand, i) => {
-      const name = `${layer.role}, row ${row + 1}, ${strand.x0.toFixed(1)} to ${strand.x1.toFixed(1)} mm` +
+      const name = `${layer.role}, row ${row}, ${strand.x0.toFixed(1)} to ${strand.x1.toFixed(1)} mm` +
         (strand.angle_deg === undefined ? '' : `, grain at ${strand.angle_deg}°`);
       drawing.append(svg('rect', {x: strand.x0 * scale, y: y + 0.4, width: (strand.x1 - strand.x0) * scale, height: Math.max(rowThick - 0.8, 0.5),
                                   fill: kindColour(names.indexOf(layer.role)), 'fill-opacity': i % 2 ? 0.72 : 0.95,

@@ -8,16 +8,23 @@ function start(): void {
   const place = document.getElementById('report')!;
   startTheme();
   const data = embedded();
-  if (data.format !== 1) throw new Error(`format ${data.format} is newer than this page`);
-  const report = runReport(data.run);
-  document.title = report.title;
-  place.append(...report.content);
-  Object.assign(window, {strandlab: {charts, view: report.view}});
+  if (data.format !== 2) throw new Error(`format ${data.format} is another than this page's`);
+  const view = runReport(data.run, place);
+  Object.assign(window, {strandlab: {charts, view}});
 }
 
-try {
-  start();
-} catch (error) {
-  document.getElementById('report')!.append(el('p', {class: 'card'}, `This report cannot be shown: ${String(error)}`));
-  throw error;
+let begun = false;
+function begin(): void {
+  if (begun) return;
+  begun = true;
+  try {
+    start();
+  } catch (error) {
+    document.getElementById('report')!.append(el('p', {class: 'card'}, `This report cannot be shown: ${String(error)}`));
+    throw error;
+  }
 }
+
+// What needs no script is painted first; a page that is not on show paints nothing.
+requestAnimationFrame(() => setTimeout(begin));
+setTimeout(begin, 300);

@@ -1,7 +1,7 @@
 // The report of one run.
 import {Chart, formatNumber, type Series} from './chart';
 import type {Run} from './data';
-import {downloadText, button, el, fileName} from './dom';
+import {downloadText, button, choice, el, fileName} from './dom';
 import {unpack} from './frames';
 import {hotPressCharts, hotPressTiles} from './hotpress';
 import {layupFigure} from './layup';
@@ -12,6 +12,10 @@ import {toggleTheme} from './theme';
 
 function nameOf(run: Run, test: string): string {
   return run.words.tests[test] ?? test;
+}
+
+function glueName(run: Run, compliance: string): string {
+  return run.words.glues.find(glue => glue.compliance_t_mm_per_MPa === Number(compliance))?.name ?? `1/Dₜ ${compliance}`;
 }
 
 function percent(compaction: number): string {
@@ -33,60 +37,6 @@ function table(run: Run, name: string): Table | undefined {
   const text = run.tables[name];
   const parsed = text ? parseCsv(text) : undefined;
   return parsed && parsed.rows.length > 0 ? parsed : undefined;
-}
-
-// ---- the head of the page
-
-function tiles(run: Run): HTMLElement | null {
-  const facts: [string, string, string][] = [];
-  const film = run.frames.frames;
-  const last = film[film.length - 1];
-  if (last) facts.push(['Thickness', formatNumber(last.top_mm - last.bottom_mm), `mm at ${percent(last.compaction)} compaction`]);
-  const densities = run.case.densities_kg_m3;
-  const density = densities[densities.length - 1];
-  if (last && density !== undefined) facts.push(['Density', density.toFixed(0), 'kg/m³, mean of the thickness']);
-  const press = table(run, 'press.csv');
-  if (press) facts.push(['Highest pressure', formatNumber(Math.max(...press.numbers('stress_MPa'))), 'MPa on the platens']);
-  const moduli = table(run, 'moduli.csv');
-  for (const test of moduli?.distinct('test') ?? []) {
-    const rows = moduli!.where('test', test);
-    const end = rows.where('compaction', rows.text('compaction')[rows.rows.length - 1]!);
-    const complianceT = end.numbers('compliance_t_mm_per_MPa');
-    const i = complianceT.indexOf(Math.min(...complianceT));
-    facts.push([`${nameOf(run, test).replace(/ \(.*/, '')} modulus`, formatNumber(Number((end.numbers('modulus_MPa')[i]! / 1000).toPrecision(3))),
-      `GPa at ${stateName(run, end.numbers('compaction')[i]!)}, ${complianceT[i] === 0 ? 'perfect bond' : `1/Dₜ ${complianceT[i]} mm/MPa`}`]);
-  }
-  return facts.length === 0 ? null : el('dl', {class: 'tiles'}, ...facts.map(([name, value, unit]) =>
-    el('div', {class: 'tile'}, el('dt', {}, name), el('dd', {}, el('b', {}, value), ' ', el('span', {}, unit)))));
-}
-
-function header(run: Run, film: {strands: number}): HTMLElement {
-  const c = run.case;
-  const rows = run.mat?.layers.length ?? 0;
-  const strands = film.strands || (run.mat?.layers.reduce((sum, layer) => sum + layer.strands.length, 0) ?? 0);
-  const most = c.compactions[c.compactions.length - 1] ?? 0;
-  const words = [
-    run.mat ? `A mat of ${strands} strands in ${rows} rows, ${Number(run.mat.length_mm.toFixed(3))} mm long` : 'A mat that is not formed yet',
-    run.record.hotpress ? `pressed hot to ${fullStateName(run, most)}` : most > 0 ? `pressed to ${fullStateName(run, most)} at ${c.speed_m_s} m/s` : 'as laid',
-  ];
-  return el('header', {class: 'page-head'},
-    el('div', {}, el('p', {class: 'brand'}, 'Strandlab'), el('h1', {}, title(run)), el('p', {class: 'lead'}, `${words.join(', ')}.`)),
-    button('◐', 'Light or dark', toggleTheme));
-}
-
-function findings(run: Run): HTMLElement | null {
-  const list = run.findings;
-  if (list.length === 0) return null;
-  const marks = {good: '✓', note: '•', warning: '!'} as const;
-  const words = {good: 'Good: ', note: '', warning: 'Warning: '} as const;
-  return section('What the numbers say', el('ul', {class: 'card findings'}, ...list.map(f =>
-    el('li', {class: f.level}, el('span', {class: 'mark', 'aria-hidden': 'true'}, marks[f.level]),
-      el('span', {}, el('span', {class: 'sr'}, words[f.level]), f.text)))));
-}
-
-// The case's name; the name in case.toml is that file's own.
-function title(run: Run): string {
-  return run.record.case_name ?? run.case.name;
 }
 
 function section(title: string, ...children: (Node | null | undefined)[]): HTMLElement {
@@ -135,64 +85,83 @@ function pressCharts(run: Run): Chart[] {
   ];
 }
 
-// A model's values over x in place of a measured series: dashed, one dash for each model. Models repeat their values for
-// every 1/D_t; `of` picks x.
-function theorySeries(theory: Table | undefined, x: (row: Table) => number[], split?: string): Series[] {
-  return (theory?.distinct('model') ?? []).flatMap(model => {
-    const rows = theory!.where('model', model);
-    const parts = split ? rows.distinct(split).map(value => rows.where(split, value)) : [rows];
-    return parts.map((part, i): Series => {
-      const points = new Map(x(part).map((value, k) => [value, part.numbers('modulus_MPa')[k]!]));
-      const sorted = [...points].sort((a, b) => a[0] - b[0]);
-      return {name: i === 0 ? model : '', x: sorted.map(p => p[0]), y: sorted.map(p => p[1]), style: 'dashed', ink: true};
-    });
+// What a modulus is drawn against.
+interface Axis {
+  key: string;
+  label: string;  // of the switch
+  xLabel: string;
+  note: string;
+  x: (row: Table) => number[];
+}
+
+const compactionAxis: Axis = {key: 'compaction', label: 'compaction', xLabel: 'compaction, %', note: 'One line per glue; dashed: closed-form models.',
+                              x: row => row.numbers('compaction').map(c => 100 * c)};
+const glueAxis: Axis = {key: 'glue', label: 'glue', xLabel: 'glue compliance 1/Dₜ, mm/MPa', note: '', x: row => row.numbers('compliance_t_mm_per_MPa')};
+const densityAxis: Axis = {key: 'density', label: 'density', xLabel: 'density, kg/m³', x: row => row.numbers('density_kg_m3'),
+                           note: 'A modulus that only follows density is a straight line through the origin; dashed: closed-form models.'};
+
+// Models of these rows, a dashed line each; they repeat their values for every 1/Dₜ or state that they do not know.
+function theorySeries(theory: Table, axis: Axis, of: string): Series[] {
+  return theory.distinct('model').map((model): Series => {
+    const rows = theory.where('model', model);
+    const points = new Map(axis.x(rows).map((value, i) => [value, rows.numbers('modulus_MPa')[i]!]));
+    const sorted = [...points].sort((a, b) => a[0] - b[0]);
+    return {name: `${model}${of}`, x: sorted.map(p => p[0]), y: sorted.map(p => p[1]), style: 'dashed', ink: true};
   });
 }
 
+const drawnColumns = ['compaction', 'density_kg_m3', 'compliance_t_mm_per_MPa', 'modulus_MPa'];
+
+// Rows of moduli.csv and theory.csv of a test as one table: what the chart's lines are.
+function drawnTable(moduli: Table, theory: Table | undefined): Table {
+  const density = new Map(moduli.text('compaction').map((c, i) => [c, moduli.text('density_kg_m3')[i]!]));
+  const rows = moduli.select(drawnColumns).rows.map(row => ['simulated', ...row]);
+  theory?.text('compaction').forEach((c, i) => rows.push([theory.text('model')[i]!, c, density.get(c) ?? '',
+    theory.text('compliance_t_mm_per_MPa')[i]!, theory.text('modulus_MPa')[i]!]));
+  return new Table(['model', ...drawnColumns], rows);
+}
+
+function modulusSpec(run: Run, axis: Axis, all: Table) {
+  const simulated = all.where('model', 'simulated');
+  const theory = new Table(all.columns, all.rows.filter(row => row[0] !== 'simulated'));
+  const states = simulated.distinct('compaction'), glues = simulated.distinct('compliance_t_mm_per_MPa');
+  const line = (column: string, value: string, i: number, count: number, name: string): Series => {
+    const rows = simulated.where(column, value);
+    return {name, x: axis.x(rows), y: rows.numbers('modulus_MPa'), style: 'marked', family: [i, count]};
+  };
+  const last = states[states.length - 1]!;
+  const byGlue = axis.key === 'glue';
+  const series = byGlue
+    ? [...states.map((c, i) => line('compaction', c, i, states.length, stateName(run, Number(c)))), ...theorySeries(theory.where('compaction', last), axis, '')]
+    : [...glues.map((d, i) => line('compliance_t_mm_per_MPa', d, i, glues.length, glueName(run, d))),
+       ...theorySeries(new Table(theory.columns, theory.rows.filter(row => row[0] !== 'shear-lag')), axis, '')];
+  return {
+    xLabel: axis.xLabel, series, x: {min: 0}, note: byGlue ? `One line per kept state; dashed: closed-form models at ${stateName(run, Number(last))}.` : axis.note,
+    summary: byGlue ? 'Modulus against glue compliance, one line per kept state, with closed-form models.'
+                    : `Modulus against ${axis.label}, one line per glue compliance, with closed-form models.`,
+  };
+}
+
+// One chart a test, with a switch of its axis; below it the static table of its moduli.
 function modulusCharts(run: Run): Chart[] {
   const moduli = table(run, 'moduli.csv');
   if (!moduli) return [];
-  return moduli.distinct('test').flatMap(test => {
-    const rows = moduli.where('test', test);
-    const theory = table(run, 'theory.csv')?.where('test', test);
-    const glueFree = theory && new Table(theory.columns, theory.rows.filter(row => !row.includes('shear-lag')));
-    const compactions = rows.distinct('compaction');
-    const compliancesT = rows.distinct('compliance_t_mm_per_MPa');
-    const over = (x: (row: Table) => number[]) => compliancesT.map((value, i): Series => {
-      const line = rows.where('compliance_t_mm_per_MPa', value);
-      return {name: Number(value) === 0 ? 'perfect bond' : `1/Dₜ ${value}`, x: x(line), y: line.numbers('modulus_MPa'), style: 'marked',
-              family: [i, compliancesT.length]};
-    });
-    const compaction = (row: Table) => row.numbers('compaction').map(c => 100 * c);
-    const densification = (row: Table) => row.numbers('compaction').map(c => 1 / (1 - c));
+  const axes = moduli.has('density_kg_m3') ? [glueAxis, densityAxis, compactionAxis] : [glueAxis];
+  return moduli.distinct('test').map(test => {
+    const all = drawnTable(moduli.where('test', test), table(run, 'theory.csv')?.where('test', test));
+    const start = axes.find(axis => new Set(axis.x(all)).size > 1) ?? glueAxis;
     const title = `${nameOf(run, test)} modulus`;
-    const yLabel = 'modulus, MPa';
-    return [
-      new Chart({
-        id: `${fileName(test)}-compliance`, title: `${title} and glue`, note: 'One line per kept state; dashed: closed-form models.',
-        xLabel: 'glue compliance 1/Dₜ, mm/MPa', yLabel,
-        series: [
-          ...compactions.map((value, i): Series => {
-            const line = rows.where('compaction', value);
-            return {name: stateName(run, Number(value)), x: line.numbers('compliance_t_mm_per_MPa'), y: line.numbers('modulus_MPa'), style: 'marked',
-                    family: [i, compactions.length]};
-          }),
-          ...theorySeries(theory, row => row.numbers('compliance_t_mm_per_MPa'), 'compaction'),
-        ],
-        table: rows, summary: 'Modulus against glue compliance, one line per compaction, with closed-form models.',
-      }),
-      new Chart({
-        id: `${fileName(test)}-compaction`, title: `${title} and compaction`, note: 'One line per glue; dashed: closed-form models.',
-        xLabel: 'compaction, %', yLabel, series: [...over(compaction), ...theorySeries(glueFree, compaction)], table: rows,
-        summary: 'Modulus against compaction, one line per glue compliance, with closed-form models.',
-      }),
-      new Chart({
-        id: `${fileName(test)}-densification`, title: `${title} and densification`,
-        note: 'A modulus that only follows density is a straight line through the origin of 1/(1 − C).',
-        xLabel: '1/(1 − C)', yLabel, series: [...over(densification), ...theorySeries(glueFree, densification)], table: rows,
-        summary: 'Modulus against 1/(1 - compaction), one line per glue compliance, with closed-form models.',
-      }),
-    ];
+    const spec = (axis: Axis) => modulusSpec(run, axis, all);
+    const chart = new Chart({id: `modulus-${fileName(test)}`, title, yLabel: 'modulus, MPa', table: all, y: {min: 0}, labels: true, ...spec(start)});
+    const against = choice('Against', axes.map(axis => ({value: axis.key, label: axis.label})), start.key, key =>
+      chart.update(spec(axes.find(axis => axis.key === key)!)));
+    chart.element.insertBefore(against, chart.host);
+    const numbers = document.getElementById(`table-modulus-${test}`);
+    if (numbers) {
+      numbers.classList.remove('card');
+      chart.element.append(numbers);
+    }
+    return chart;
   });
 }
 
@@ -273,7 +242,7 @@ function facts(title: string, rows: [string, string][]): HTMLElement {
 
 function caseFacts(run: Run): HTMLElement {
   const c = run.case;
-  const glue = c.compliances_t_mm_per_MPa.map(v => (v === 0 ? '0 (perfect)' : String(v))).join(', ');
+  const glue = c.compliances_t_mm_per_MPa.map(v => `${v} (${glueName(run, String(Math.max(v, 0)))})`.replace(/ \(1\/D.*\)/, '')).join(', ');
   const derived = run.record.derived_constants ?? [];
   return el('div', {class: 'grid'},
     ...derived.map(line => el('p', {class: 'note'}, `${line[0]?.toUpperCase() ?? ''}${line.slice(1)}.`)),
@@ -296,6 +265,18 @@ function caseFacts(run: Run): HTMLElement {
     ]));
 }
 
+function openOnPaper(details: HTMLDetailsElement): HTMLDetailsElement {
+  let before = details.open;
+  window.addEventListener('beforeprint', () => {
+    before = details.open;
+    details.open = true;
+  });
+  window.addEventListener('afterprint', () => {
+    details.open = before;
+  });
+  return details;
+}
+
 function duration(seconds: number): string {
   if (seconds < 90) return `${seconds.toFixed(seconds < 10 ? 1 : 0)} s`;
   return seconds < 5400 ? `${(seconds / 60).toFixed(1)} min` : `${(seconds / 3600).toFixed(1)} h`;
@@ -316,9 +297,9 @@ function provenance(run: Run): HTMLElement {
   ];
   return section('Provenance',
     facts('How this was made', rows.filter((row): row is [string, string] => !!row[1])),
-    el('details', {class: 'card'}, el('summary', {}, 'The case, as it was run'), el('pre', {tabindex: 0}, run.case_text),
+    openOnPaper(el('details', {class: 'card'}, el('summary', {}, 'The case, as it was run'), el('pre', {tabindex: 0}, run.case_text),
       el('div', {class: 'tools'}, button('TOML', 'Download the case file', () =>
-        downloadText('case.toml', 'text/plain', run.case_text)))));
+        downloadText('case.toml', 'text/plain', run.case_text))))));
 }
 
 function hotPress(run: Run, grid: (charts: Chart[]) => HTMLElement | null): HTMLElement | null {
@@ -339,18 +320,24 @@ function stressAt(run: Run): ((time_ms: number) => number | undefined) | undefin
   };
 }
 
-export function runReport(run: Run): {title: string; content: Node[]; view?: SectionView} {
+// Builds on what the page says without scripts: the film behind the headlines, charts behind the findings, tables where
+// they belong.
+export function runReport(run: Run, place: HTMLElement): SectionView | undefined {
   const film = unpack(run.frames);
   const view = film.frames.length > 0 ? new SectionView(film, {
     id: 'section', kinds: run.case.kinds.map(kind => kind.name), stressAt: stressAt(run), measuredProfile: measuredProfile(run), slips: slips(run),
   }) : undefined;
   const grid = (charts: Chart[]) => (charts.length > 0 ? el('div', {class: 'grid'}, ...charts.map(chart => chart.element)) : null);
   const press = pressCharts(run), moduli = modulusCharts(run), histograms = [...profileChart(run), ...histogramCharts(run)];
+  place.querySelector('header')?.append(button('◐', 'Light or dark', toggleTheme));
+  if (view) {
+    const head = place.querySelector('.tiles') ?? place.querySelector('header');
+    const shown = section('The section through the pressing', view.element);
+    shown.classList.add('film');
+    if (head) head.after(shown);
+    else place.prepend(shown);
+  }
   const content = [
-    header(run, {strands: film.strands.length}),
-    tiles(run),
-    view ? section('The section through the pressing', view.element) : null,
-    findings(run),
     hotPress(run, grid),
     press.length > 0 ? section('Pressing', grid(press)) : null,
     moduli.length > 0 ? section('Stiffness', grid(moduli)) : null,
@@ -359,6 +346,10 @@ export function runReport(run: Run): {title: string; content: Node[]; view?: Sec
     provenance(run),
     el('footer', {}, `strandlab ${run.record.strandlab ?? ''}. The numbers are in the CSV files of the run folder.`),
   ];
-  return {title: `${title(run)} – Strandlab`, content: content.filter((node): node is HTMLElement => node !== null), view};
+  place.append(...content.filter((node): node is HTMLElement => node !== null));
+  const tables = document.getElementById('tables');
+  const states = document.getElementById('table-states');
+  if (states && histograms.length > 0) histograms[0]!.element.parentElement!.before(states);
+  if (tables && !tables.querySelector('table')) tables.remove();
+  return view;
 }
-

@@ -3,7 +3,7 @@
 import {Chart} from './chart';
 import {css, interpolate, plasma} from './colour';
 import {byStrand, cellPixels, colouringsOf, fieldPixels, kindColour, strandPixels, type Colouring} from './colouring';
-import {button, choice, download, downloadText, el} from './dom';
+import {button, choice, download, downloadText, el, menu} from './dom';
 import {valueOf, type Film, type Frame} from './frames';
 import {profileOf} from './profile';
 import {drawCells, type Canvas} from './raster';
@@ -27,6 +27,9 @@ const slices = 80;
 const hint = 'Point at a strand to read its values. Double click or + magnifies, dragging or the arrow keys move the section; ' +
              'N and P step through the strands.';
 const glueColour = '#ff2d95';
+
+// A scale of colours. Values beyond an end that is cut have the colour of that end.
+type Ramp = Pick<Colouring, 'label' | 'map' | 'low' | 'high' | 'cutsLow' | 'cutsHigh'>;
 
 function ticks(low: number, high: number, count: number): number[] {
   const raw = (high - low) / Math.max(1, count);
@@ -123,7 +126,7 @@ export class SectionView {
       }),
       el('label', {class: 'check', title: 'Colours span the values of this compaction, not of the whole pressing'}, fit, 'Fit colours'),
       el('label', {class: 'check'}, glue, 'Glue lines'),
-      el('span', {class: 'tools'},
+      menu('Picture: magnify, download',
         button('−', 'Magnify less', () => this.magnify(1 / 1.5)), button('+', 'Magnify more', () => this.magnify(1.5)),
         button('Fit', 'Show the whole section', () => this.reset()),
         button('PNG', 'Download this picture as PNG', () => this.downloadPng()),
@@ -344,7 +347,7 @@ export class SectionView {
       const beyond = byte === 255 ? '≥ ' : byte === 0 && field.low !== 0 ? '≤ ' : '';
       return `${c.label.toLowerCase()} ${beyond}${valueOf(field, byte).toFixed(c.digits).replace('-', '−')}${c.unit === '°' ? '' : ' '}${c.unit}`.trim();
     });
-    return [`Strand ${number + 1}: ${strand.kind}, row ${strand.row + 1}, laid at ${strand.angle_deg}°`, ...values].join(' · ');
+    return [`Strand ${number}: ${strand.kind}, row ${strand.row}, laid at ${strand.angle_deg}°`, ...values].join(' · ');
   }
 
   // ---- drawing
@@ -512,14 +515,17 @@ export class SectionView {
   private drawProfile(): void {
     const now = profileOf(this.film, this.frame, slices);
     const measured = this.options.measuredProfile?.(this.frame.compaction);
-    const rows = now.y_mm.map((y, i) => [this.frame.compaction, y, now.density_kg_m3[i]!].map(v => String(Number(v.toPrecision(6)))));
+    const bottom = this.frame.bottom_mm;
+    const row = (of: string, y: number, density: number) => [of, ...[this.frame.compaction, y, density].map(v => String(Number(v.toPrecision(6))))];
+    const rows = [...now.y_mm.map((y, i) => row('film', y, now.density_kg_m3[i]!)),
+                  ...(measured?.y_mm.map((y, i) => row(measured.label, y + bottom, measured.density_kg_m3[i]!)) ?? [])];
     const highest = Math.max(...this.film.fields.filter(f => f.key === 'density_kg_m3').map(f => f.high), 1);
     this.profile.update({
       series: [
-        {name: '', x: now.density_kg_m3, y: now.y_mm, colour: colour('accent')},
-        ...(measured ? [{name: measured.label, x: measured.density_kg_m3, y: measured.y_mm.map(y => y + this.frame.bottom_mm), style: 'dashed' as const, ink: true}] : []),
+        {name: 'film', x: now.density_kg_m3, y: now.y_mm, colour: colour('accent')},
+        ...(measured ? [{name: measured.label, x: measured.density_kg_m3, y: measured.y_mm.map(y => y + bottom), style: 'dashed' as const, ink: true}] : []),
       ],
-      table: new Table(['compaction', 'y_mm', 'density_kg_m3'], rows),
+      table: new Table(['of', 'compaction', 'y_mm', 'density_kg_m3'], rows),
       x: {min: 0, max: Math.ceil(highest / 200) * 200},
       xLabel: this.width < 420 ? 'kg/m³' : 'density, kg/m³',
       y: {min: this.fromY(this.height - margin.bottom - platen), max: this.fromY(margin.top + platen), hidden: true},
@@ -537,38 +543,51 @@ export class SectionView {
     this.canvas.dataset['frame'] = String(this.index);
   }
 
-  private ramp(label: string, map: Colouring['map'], low: number, high: number): HTMLElement {
+  private ramp(r: Ramp): HTMLElement {
     const strip = el('div', {class: 'strip'});
-    strip.style.background = `linear-gradient(90deg, ${Array.from({length: 17}, (_, i) => css(interpolate(map, i / 16))).join(', ')})`;
-    const scale = el('div', {class: 'scale'}, ...ticks(low, high, 5).map(value => {
+    strip.style.background = `linear-gradient(90deg, ${Array.from({length: 17}, (_, i) => css(interpolate(r.map, i / 16))).join(', ')})`;
+    const scale = el('div', {class: 'scale'}, ...ticks(r.low, r.high, 5).map(value => {
       const tick = el('span', {}, String(value).replace('-', '−'));
-      tick.style.left = `${(100 * (value - low)) / (high - low)}%`;
+      tick.style.left = `${(100 * (value - r.low)) / (r.high - r.low)}%`;
       return tick;
     }));
-    return el('div', {class: 'key'}, el('span', {class: 'quantity'}, label), el('div', {class: 'ramp'}, strip, scale));
+    const arrow = (shown: boolean, end: 'low' | 'high') => shown &&
+      el('span', {class: `beyond ${end}`, title: `Values ${end === 'low' ? 'below' : 'above'} the scale have this colour`}, end === 'low' ? '◀' : '▶');
+    return el('div', {class: 'key'}, el('span', {class: 'quantity'}, r.label),
+      el('div', {class: 'ramp'}, arrow(r.cutsLow, 'low'), strip, arrow(r.cutsHigh, 'high'), scale));
+  }
+
+  // Scales and swatches of what is drawn, for the page and for the exported picture.
+  private legends(): {ramps: Ramp[]; swatches: [colour: string, name: string][]} {
+    const c = this.colourings[this.colouring];
+    const ramps: Ramp[] = c ? [{...c, label: c.unit ? `${c.label}, ${c.unit}` : c.label}] : [];
+    const swatches = c ? [] : this.options.kinds.map((kind, i): [string, string] => [kindColour(i), kind]);
+    const state = this.showGlue ? this.slip : undefined;
+    if (state) {
+      ramps.push({label: `Slip of glue lines of 1/Dₜ ${state.compliance_t_mm_per_MPa} mm/MPa in tension, µm at ${100 * state.strain} % strain`,
+                  map: plasma, low: 0, high: state.highest_um, cutsLow: false, cutsHigh: true});
+    } else if (this.showGlue) {
+      swatches.push([glueColour, 'faces near enough to be glued']);
+    }
+    return {ramps, swatches};
   }
 
   // What the colours mean.
   private drawBar(): void {
-    this.bar.replaceChildren();
-    const c = this.colourings[this.colouring];
-    if (c) this.bar.append(this.ramp(c.unit ? `${c.label}, ${c.unit}` : c.label, c.map, c.low, c.high));
-    else this.options.kinds.forEach((kind, i) => {
+    const {ramps, swatches} = this.legends();
+    this.bar.replaceChildren(...ramps.map(r => this.ramp(r)), ...swatches.map(([paint, name]) => {
       const swatch = el('i', {});
-      swatch.style.background = kindColour(i);
-      this.bar.append(el('span', {class: 'kind'}, swatch, kind));
-    });
-    const state = this.showGlue ? this.slip : undefined;
-    if (state) {
-      this.bar.append(this.ramp(`Slip of glue lines of 1/Dₜ ${state.compliance_t_mm_per_MPa} mm/MPa in tension, µm at ` +
-        `${100 * state.strain} % strain`, plasma, 0, state.highest_um));
-    }
+      swatch.style.background = paint;
+      return el('span', {class: 'kind'}, swatch, name);
+    }));
   }
 
-  // The picture as it is shown, with its colour bar and caption.
+  // The picture as it is shown, with its legends and caption.
   downloadPng(): void {
     const ratio = this.canvas.width / this.width;
-    const extra = 54;
+    const {ramps, swatches} = this.legends();
+    const line = 36;
+    const extra = 22 + line * (ramps.length + (swatches.length > 0 ? 1 : 0));
     const picture = el('canvas', {width: this.canvas.width, height: this.canvas.height + Math.round(extra * ratio)});
     const context = picture.getContext('2d')!;
     context.fillStyle = colour('card');
@@ -578,20 +597,35 @@ export class SectionView {
     context.fillStyle = colour('ink');
     context.font = '13px system-ui, sans-serif';
     context.fillText(this.status.textContent ?? '', margin.left, this.height + 14);
-    const c = this.colourings[this.colouring];
-    if (c) {
-      const left = margin.left, wide = 220;
-      for (let i = 0; i < wide; ++i) {
-        context.fillStyle = css(interpolate(c.map, i / wide));
-        context.fillRect(left + i, this.height + 24, 1.5, 10);
-      }
+    const left = margin.left + 12, wide = 220;
+    let top = this.height + 24;
+    for (const r of ramps) {
+      this.paintRamp(context, r, left, top, wide);
+      top += line;
+    }
+    let x = left;
+    for (const [paint, name] of swatches) {
+      context.fillStyle = paint;
+      context.fillRect(x, top, 12, 12);
       context.fillStyle = colour('ink');
-      context.fillText(String(c.low), left, this.height + 48);
-      context.textAlign = 'right';
-      context.fillText(String(c.high), left + wide, this.height + 48);
-      context.textAlign = 'left';
-      context.fillText(c.unit ? `${c.label}, ${c.unit}` : c.label, left + wide + 14, this.height + 34);
+      context.fillText(name, x + 18, top + 11);
+      x += 34 + context.measureText(name).width;
     }
     picture.toBlob(blob => blob && download(`${this.options.id}-${this.index}.png`, blob));
+  }
+
+  private paintRamp(context: CanvasRenderingContext2D, r: Ramp, left: number, top: number, wide: number): void {
+    for (let i = 0; i < wide; ++i) {
+      context.fillStyle = css(interpolate(r.map, i / wide));
+      context.fillRect(left + i, top, 1.5, 10);
+    }
+    context.fillStyle = colour('ink');
+    context.fillText(String(Number(r.low.toPrecision(3))), left, top + 24);
+    context.fillText(r.label, left + wide + 20, top + 10);
+    if (r.cutsHigh) context.fillText('▶', left + wide + 2, top + 10);
+    context.textAlign = 'right';
+    context.fillText(String(Number(r.high.toPrecision(3))), left + wide, top + 24);
+    if (r.cutsLow) context.fillText('◀', left - 1, top + 10);
+    context.textAlign = 'left';
   }
 }

@@ -60,6 +60,7 @@ const chart = (page, id) => page.evaluate(name => {
   const shown = window.strandlab.charts.get(name);
   return host && shown && {
     series: shown.chart.getOption().series.map(s => ({name: s.name, data: s.data})),
+    start: [shown.chart.getOption().xAxis[0].min, shown.chart.getOption().yAxis[0].min],
     paths: host.querySelectorAll('svg path').length,
     label: host.querySelector('[aria-label]')?.getAttribute('aria-label') ?? '',
   };
@@ -120,31 +121,43 @@ async function chartsShowTheTables() {
   same('top platen', stress.series[0].data, column('force_top_N').map(([c, f]) => [c, f / run.length_mm]));
   same('bottom platen', stress.series[1].data, column('force_bottom_N').map(([c, f]) => [c, f / run.length_mm]));
   same('mean stress', stress.series[2].data, column('stress_MPa'));
-  const lead = await page.textContent('.lead');
-  check(lead.includes(` ${Number(run.length_mm.toFixed(3))} mm long`), `the page says how long the mat is: ${lead}`);
+  const board = await page.textContent('.board');
+  check(board.includes(`${Number(run.length_mm.toFixed(3))} mm long`), `the page says how long the mat is: ${board}`);
   check(/stress/i.test(stress.label), `the stress chart says what it is: ${stress.label}`);
   const energies = await chart(page, 'energies');
   ['platen_work', 'plastic', 'elastic', 'friction', 'contact', 'filter', 'kinetic'].forEach((name, i) =>
     same(name, energies.series[i].data, column(`${name}_mJ`)));
 
   const moduli = csv('moduli.csv'), theory = csv('theory.csv');
+  const density = new Map(moduli.map(row => [row.compaction, Number(row.density_kg_m3)]));
   for (const test of new Set(moduli.map(row => row.test))) {
+    const id = `modulus-${test}`;
     const rows = moduli.filter(row => row.test === test);
     const compactions = [...new Set(rows.map(row => row.compaction))];
     const compliances = [...new Set(rows.map(row => row.compliance_t_mm_per_MPa))];
-    const models = [...new Set(theory.filter(row => row.test === test).map(row => row.model))];
-    const glue = await chart(page, `${test}-compliance`);
+    const ofTest = theory.filter(row => row.test === test);
+    const models = [...new Set(ofTest.map(row => row.model))];
+    const glue = await chart(page, id);
     compactions.forEach((c, i) => same(`${test} at ${c}`, glue.series[i].data,
       rows.filter(row => row.compaction === c).map(row => [Number(row.compliance_t_mm_per_MPa), Number(row.modulus_MPa)])));
-    check(glue.series.length === compactions.length * (1 + models.length), `${test}: lines of ${models} beside those simulated`);
-    for (const [suffix, x] of [['compaction', c => 100 * c], ['densification', c => 1 / (1 - c)]]) {
-      const over = await chart(page, `${test}-${suffix}`);
-      compliances.forEach((d, i) => same(`${test} of ${d}`, over.series[i].data,
-        rows.filter(row => row.compliance_t_mm_per_MPa === d).map(row => [x(Number(row.compaction)), Number(row.modulus_MPa)])));
-      check(over.paths > 10, `${test}-${suffix} is drawn`);
-      const model = theory.filter(row => row.test === test && row.model !== 'shear-lag' && row.compliance_t_mm_per_MPa === compliances[0]);
-      same(`theory of ${test}`, over.series[compliances.length].data, model.map(row => [x(Number(row.compaction)), Number(row.modulus_MPa)]));
+    const last = compactions[compactions.length - 1];
+    models.forEach((model, i) => same(`${model} at ${last}`, glue.series[compactions.length + i]?.data ?? [],
+      ofTest.filter(row => row.model === model && row.compaction === last).map(row => [Number(row.compliance_t_mm_per_MPa), Number(row.modulus_MPa)])));
+    check(glue.series.length === compactions.length + models.length && glue.series.every(s => s.name), `${test}: models of the last state only, all with names`);
+    for (const [axis, x] of [['density', c => density.get(c)], ['compaction', c => 100 * c]]) {
+      await page.locator(`#chart-${id}`).getByLabel(axis, {exact: true}).check({force: true});
+      const over = await chart(page, id);
+      compliances.forEach((d, i) => same(`${test} of ${d} over ${axis}`, over.series[i].data,
+        rows.filter(row => row.compliance_t_mm_per_MPa === d).map(row => [x(row.compaction), Number(row.modulus_MPa)])));
+      check(over.paths > 10 && over.start.every(v => v === 0), `${test} over ${axis} is drawn from zero: ${over.start}`);
+      const model = ofTest.filter(row => row.model !== 'shear-lag' && row.compliance_t_mm_per_MPa === compliances[0]);
+      same(`theory of ${test}`, over.series[compliances.length].data, model.map(row => [x(row.compaction), Number(row.modulus_MPa)]));
     }
+    const names = (await chart(page, id)).series.map(s => s.name);
+    check(names[0] === 'perfect bond' && names[1].startsWith('PF 25'), `lines have the names of glues: ${names}`);
+    await page.locator(`#chart-${id}`).getByLabel('glue', {exact: true}).check({force: true});
+    const shown = await page.locator(`#chart-${id} table tbody tr`).count();
+    check(shown === compactions.length, `${id}: a row of the table below for each state: ${shown}`);
   }
   const profiles = csv('profile.csv');
   const shown = await chart(page, 'profile');
@@ -173,9 +186,12 @@ async function downloads() {
   const expected = ['compaction,time_ms,stress_MPa,force_top_N,force_bottom_N',
     ...csv('press.csv').map(row => [row.compaction, row.time_ms, row.stress_MPa, row.force_top_N, row.force_bottom_N].join(','))].join('\n') + '\n';
   check((await downloaded(page, button('stress', 'CSV'))).toString() === expected, 'the CSV of the stress chart is the table');
-  const moduli = readFileSync(join(folder, 'moduli.csv'), 'utf8').split('\n');
-  const tension = moduli.filter((line, i) => i === 0 || line.split(',')[1] === 'tension').join('\n') + '\n';
-  check((await downloaded(page, button('tension-compliance', 'CSV'))).toString() === tension, 'the CSV of a modulus chart is the table');
+  const density = new Map(csv('moduli.csv').map(row => [row.compaction, row.density_kg_m3]));
+  const cells = (model, row) => [model, row.compaction, density.get(row.compaction), row.compliance_t_mm_per_MPa, row.modulus_MPa].join(',');
+  const tension = ['model,compaction,density_kg_m3,compliance_t_mm_per_MPa,modulus_MPa',
+    ...csv('moduli.csv').filter(row => row.test === 'tension').map(row => cells('simulated', row)),
+    ...csv('theory.csv').filter(row => row.test === 'tension').map(row => cells(row.model, row))].join('\n') + '\n';
+  check((await downloaded(page, button('modulus-tension', 'CSV'))).toString() === tension, 'the CSV of a modulus chart has both tables');
   check(/^<svg[^>]*xmlns/.test((await downloaded(page, button('stress', 'SVG'))).toString()), 'the SVG of a chart');
   check(/^<svg[^>]*xmlns/.test((await downloaded(page, button('layup', 'SVG'))).toString()), 'the SVG of the layup');
   const png = await downloaded(page, page.getByRole('button', {name: 'Download this picture as PNG'}));
@@ -225,7 +241,8 @@ async function colourings() {
   check(bar.includes('Slip of glue lines of 1/Dₜ 0.0105'), `the last state was tested: its glue lines tell their slip: ${bar}`);
   await page.getByRole('slider', {name: 'Compaction'}).fill('10');
   await settled(page);
-  check(!(await page.locator('.colour-bar').textContent()).includes('Slip'), 'a state between tests has no slip');
+  const between = await page.locator('.colour-bar').textContent();
+  check(!between.includes('Slip') && between.includes('near enough to be glued'), `a state between tests has no slip, its lines a key: ${between}`);
   await page.getByLabel('Glue lines').uncheck();
   await select.selectOption('density_kg_m3');
   await page.getByRole('slider', {name: 'Compaction'}).fill('0');
@@ -243,7 +260,7 @@ async function pointerAndKeys() {
   await canvas.hover({position: {x: box.width / 3, y: box.height * 0.7}});
   await settled(page);
   const bubble = await page.locator('.bubble').textContent();
-  for (const part of ['Strand', 'surface', 'row 1', 'grain angle', 'kg/m³', 'plastic strain', 'MPa']) {
+  for (const part of ['Strand', 'surface', 'row 0', 'grain angle', 'kg/m³', 'plastic strain', 'MPa']) {
     check(bubble.includes(part), `the strand under the pointer tells its ${part}: ${bubble}`);
   }
   await page.mouse.move(5, 5);
@@ -257,7 +274,7 @@ async function pointerAndKeys() {
   await page.keyboard.press('0');
   check(await picture(page) === whole, 'zero shows all of it again');
   await page.keyboard.press('n');
-  check((await page.locator('.readout').textContent()).startsWith('Strand 1: surface'), 'N steps to the first strand');
+  check((await page.locator('.readout').textContent()).startsWith('Strand 0: surface'), 'N steps to the first strand');
   await page.keyboard.press('Escape');
   await canvas.dblclick({position: {x: box.width / 2, y: box.height / 2}});
   check(await picture(page) !== whole, 'a double click magnifies');
@@ -280,6 +297,68 @@ async function tabbing() {
   }
 }
 
+// The tooltip of a chart tells every line under the pointer by its name, and lies within the window.
+async function pointingAtCharts() {
+  const host = page.locator('#chart-modulus-tension .plot');
+  await host.scrollIntoViewIfNeeded();
+  const box = await host.boundingBox();
+  await host.hover({position: {x: 100, y: box.height / 2}});
+  await host.hover({position: {x: 66, y: box.height / 2}});
+  await page.waitForFunction(() => document.querySelector('.pointed')?.getBoundingClientRect().width > 0);
+  await settled(page);
+  const told = await page.locator('.pointed').last().evaluate(e => ({rows: e.querySelectorAll('b').length, text: e.textContent,
+    box: e.parentElement.getBoundingClientRect().toJSON(), width: innerWidth, height: innerHeight}));
+  const {series} = await chart(page, 'modulus-tension');
+  check(told.rows === series.length && series.every(s => told.text.includes(s.name)), `the tooltip tells ${told.rows} of ${series.length} lines: ${told.text}`);
+  check(told.box.left >= 0 && told.box.right <= told.width && told.box.bottom <= told.height, `the tooltip is cut: ${JSON.stringify(told.box)}`);
+  await page.mouse.move(5, 5);
+}
+
+// What must be read without scripts, as in a mail's preview.
+async function withoutScripts() {
+  const browser = await chromium.launch({executablePath: browserPath, args: ['--no-sandbox', '--disable-gpu']});
+  const bare = await (await browser.newContext({javaScriptEnabled: false})).newPage();
+  await bare.goto(`file://${report}`);
+  for (const [what, selector] of [['the name', 'h1'], ['the layup', '.board'], ['the limits', '.limit'], ['headlines', '.tile b'],
+    ['findings of the board', '#findings li'], ['moduli', '#table-modulus-tension td'], ['states', '#table-states td']]) {
+    check(await bare.locator(selector).first().isVisible(), `without scripts ${what} can be read`);
+  }
+  const groups = await bare.locator('#findings h3').allTextContents();
+  check(groups.join() === 'The board,The calculation', `groups of findings: ${groups}`);
+  const tension = csv('moduli.csv').filter(row => row.test === 'tension');
+  const cell = (await bare.locator('#table-modulus-tension tbody td').first().textContent()).replace(/\u202f/g, '');
+  check(Math.abs(Number(cell) - tension[0].modulus_MPa) <= 0.5, `the first modulus is ${tension[0].modulus_MPa}, the page says ${cell}`);
+  check(await bare.locator('abbr[title]').count() > 2, 'words have their meaning on hover');
+  check(await bare.title() === `${await bare.textContent('h1')} – Strandlab`, `title: ${await bare.title()}`);
+  await browser.close();
+}
+
+// The chip leads to the findings, findings to their charts.
+async function links() {
+  const broken = await page.evaluate(() => [...document.querySelectorAll('a[href^="#"]')].map(a => a.getAttribute('href'))
+    .filter(href => !document.querySelector(href)));
+  check(broken.length === 0, `links that lead nowhere: ${broken}`);
+  check(await page.locator('#findings a').count() > 4, 'findings lead to their charts');
+}
+
+// Every line stands out from its card by 3:1 (WCAG 1.4.11).
+async function linesAreSeen(other, where) {
+  const worst = await other.evaluate(() => {
+    const parse = text => /^#/.test(text) ? [1, 3, 5].map(i => parseInt(text.slice(i, i + 2), 16)) : text.match(/[\d.]+/g).map(Number);
+    const luminance = colour => colour.slice(0, 3).map(v => (v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+      .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+    const card = luminance(parse(getComputedStyle(document.querySelector('.card')).backgroundColor));
+    let least = {ratio: 99};
+    for (const [id, chart] of window.strandlab.charts) for (const s of chart.chart.getOption().series) {
+      const line = luminance(parse(s.itemStyle.color));
+      const ratio = (Math.max(line, card) + 0.05) / (Math.min(line, card) + 0.05);
+      if (ratio < least.ratio) least = {ratio, name: `${s.name} of ${id}`};
+    }
+    return least;
+  });
+  check(worst.ratio >= 3, `${where}: ${worst.name} has a contrast of ${worst.ratio.toFixed(2)} only`);
+}
+
 // ---- light, dark, narrow, paper
 
 async function legible(file, scheme, width) {
@@ -287,13 +366,17 @@ async function legible(file, scheme, width) {
   const where = `${scheme}, ${width} px`;
   const page_ = await other.evaluate(() => [document.scrollingElement.scrollWidth, window.innerWidth,
                                             getComputedStyle(document.body).backgroundColor]);
-  const wide = await other.evaluate(() => [...document.querySelectorAll('main *')].filter(e => !e.closest('svg, pre, .sr') &&
+  const wide = await other.evaluate(() => [...document.querySelectorAll('main *')].filter(e => !e.closest('svg, pre, .sr') && e.checkVisibility() &&
     e.getBoundingClientRect().right > window.innerWidth + 0.5).map(e => `${e.tagName}.${e.className}`).slice(0, 4));
   check(page_[0] <= page_[1] && wide.length === 0, `${where}: the page is ${page_[0]} px wide: ${wide}`);
   const dark = page_[2].match(/\d+/g).map(Number).every(v => v < 60);
   check(dark === (scheme === 'dark'), `${where}: background ${page_[2]}`);
   const worst = await leastContrast(other);
   check(worst.ratio >= 4.5, `${where}: "${worst.words}" has a contrast of ${worst.ratio.toFixed(2)} only`);
+  await linesAreSeen(other, where);
+  const [film, tiles] = await other.evaluate(() => ['.film', '.tiles'].map(name => document.querySelector(name).getBoundingClientRect().top));
+  check((film < tiles) === (width === 390), `${where}: the film is at ${film}, the headlines at ${tiles}`);
+  check(await other.getByRole('button', {name: 'Magnify more'}).isVisible() === (width !== 390), `${where}: buttons behind a menu on a phone only`);
   return other;
 }
 
@@ -307,6 +390,9 @@ async function themes() {
 async function paper() {
   await page.emulateMedia({media: 'print'});
   check(!await page.locator('.toolbar').isVisible() && await page.locator('canvas.section').isVisible(), 'paper shows pictures, not buttons');
+  await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
+  check(await page.locator('main pre').isVisible(), 'paper shows the case');
+  await page.evaluate(() => window.dispatchEvent(new Event('afterprint')));
   const pdf = await page.pdf({format: 'A4'});
   check(pdf.subarray(0, 4).toString() === '%PDF' && pdf.length > 30000, 'the page prints');
   await page.emulateMedia({media: 'screen'});
@@ -328,7 +414,7 @@ async function hostileNames() {
   }
 }
 
-const steps = [chartsShowTheTables, frameProfileAgrees, downloads, sliderMovesThePicture, colourings, pointerAndKeys, tabbing, themes, paper, hostileNames];
+const steps = [chartsShowTheTables, frameProfileAgrees, downloads, sliderMovesThePicture, colourings, pointerAndKeys, pointingAtCharts, links, withoutScripts, tabbing, themes, paper, hostileNames];
 try {
   for (const step of steps) await step().catch(error => check(false, `${step.name}: ${error.stack}`));
 } finally {

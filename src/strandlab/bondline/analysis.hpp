@@ -8,6 +8,7 @@
 
 #include "strandlab/bondline/record.hpp"
 #include "strandlab/bondline/shear_lag.hpp"
+#include "strandlab/core/error.hpp"
 #include "strandlab/statistics/statistics.hpp"
 
 namespace strandlab::bondline {
@@ -90,8 +91,13 @@ Analysis analyse(const SpecimenTable& table, const Options& options);
 // The analysis as JSON text, with units in the keys. group_compliance() reads it back.
 std::string to_json(const Analysis& analysis, const std::string& input);
 
-// Mean 1/D_t (mm/MPa) of a group from a JSON file written by to_json(). Throws InputError for a file that is not one
-// and for an unknown group (with the groups it has) or one without a value.
+// A group that a result does not have, or has without a value.
+struct NoSuchGroup : InputError {
+  using InputError::InputError;
+};
+
+// Mean 1/D_t (mm/MPa) of a group from a JSON file written by to_json(). Throws InputError for a file that is not one,
+// NoSuchGroup for an unknown group (with the groups it has) or one without a value.
 double group_compliance(const std::filesystem::path& file, const std::string& group);
 
 }  // namespace strandlab::bondline

@@ -107,11 +107,11 @@ double group_compliance(const std::filesystem::path& file, const std::string& gr
       if (names.back() != group) continue;
       const auto& value = entry.at("compliance_t_mm_per_MPa");
       if (value.is_null())
-        throw InputError(fmt::format("{}: group '{}' has no value", file.string(), shortened(group)));
+        throw NoSuchGroup(fmt::format("{}: group '{}' has no value", file.string(), shortened(group)));
       return value.get<double>();
     }
-    throw InputError(fmt::format("{}: has no group '{}'; it has: {}", file.string(), shortened(group),
-                                 shortened(fmt::format("{}", fmt::join(names, ", ")), 400)));
+    throw NoSuchGroup(fmt::format("{}: has no group '{}'; it has: {}", file.string(), shortened(group),
+                                  shortened(fmt::format("{}", fmt::join(names, ", ")), 400)));
   } catch (const Json::exception&) {
     throw not_ours();
   }

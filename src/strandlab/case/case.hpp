@@ -70,6 +70,7 @@ struct Case {
   mpm::Options mpm;  // its thread count is set from `threads` when a run starts
   vtest::Options test;
   std::string bondline_file, bondline_group;  // absolute path of a `strandlab bondline` result, and its group; or empty
+  std::vector<std::string> bondline_groups;   // several groups in place of one
   int threads = 0;                            // 0: all cores
   std::uint64_t seed = 1;
   double checkpoint_interval_s = 30;
@@ -80,6 +81,9 @@ struct Case {
 // line, key, what was given and what is allowed for anything a run could not use; relative mat.file and
 // glue.from_bondline count from the case file. With glue.from_bondline the glue compliance is that of glue.group there.
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+// The same, its glue lines as the case's numbers have them: the result of glue.from_bondline is not read. For a case
+// that was written out in full.
+Case read_written_case(const std::filesystem::path& file);
 // The same from the text of a case; `source` stands for the file in messages.
 Case case_from_text(const std::string& text, const std::string& source, const std::vector<std::string>& overrides = {});
 // The case with some keys changed, "key.path=value" each, checked together as a case that is read; `source` opens
@@ -105,6 +109,9 @@ std::vector<StrandKind> kinds_and_materials(const Case& c);
 mat::Mat make_mat(const Case& c);
 // Its weight and what it is made of.
 Weight weigh(const Case& c, const mat::Mat& mat);
+// What a glue line of the case is called: the group of the bond-line result that gave its compliance, else
+// glue::name_of_bond().
+std::string name_of_glue(const Case& c, double compliance_t_mm_per_MPa);
 // Density of its panel of area at a compaction, voids included, kg/m^3.
 double density_kg_m3(const Case& c, const mat::Mat& mat, double compaction);
 // Makes c.schedule.compactions those at which the mat has the case's states: as given, or to 1e-4 those of its

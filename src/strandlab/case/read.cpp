@@ -19,6 +19,8 @@
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/core/text.hpp"
+#include "strandlab/glue/bond.hpp"
+#include "strandlab/glue/measured.hpp"
 #include "strandlab/transfer/cure.hpp"
 
 namespace strandlab::cases {
@@ -632,20 +634,32 @@ void make_absolute(std::string& file, const fs::path& folder) {
   if (!file.empty()) file = fs::absolute(folder / file).lexically_normal().string();
 }
 
+std::vector<std::string> groups_of(const Case& c) {
+  if (!c.bondline_groups.empty() || c.bondline_group.empty()) return c.bondline_groups;
+  return {c.bondline_group};
+}
+
 // The glue compliance that a bond-line result gives, where the case names one.
 void use_bondline(Case& c, const fs::path& file) {
   const auto fail = [](const std::string& place, const std::string& message) {
     throw InputError(fmt::format("{}: {}", place, message));
   };
+  const auto groups = groups_of(c);
   if (c.bondline_file.empty()) {
-    if (!c.bondline_group.empty())
-      fail(c.places.bondline_group, "needs glue.from_bondline, the result that has the group");
+    if (!groups.empty()) fail(c.places.bondline_group, "needs glue.from_bondline, the result that has the group");
     return;
   }
-  if (c.bondline_group.empty()) fail(c.places.bondline_file, "needs glue.group, the group of that result to take");
+  if (groups.empty())
+    fail(c.places.bondline_file, "needs glue.group, the group of that result to take, or glue.groups");
+  if (!c.bondline_group.empty() && !c.bondline_groups.empty())
+    fail(c.places.bondline_group,
+         fmt::format("glue.group = \"{}\" and glue.groups = [{}] stand beside each other; give one of the two",
+                     shortened(c.bondline_group), quoted_list(c.bondline_groups)));
   std::vector<double> measured;
   try {
-    measured = {bondline::group_compliance(c.bondline_file, c.bondline_group)};
+    for (const auto& group : groups) measured.push_back(bondline::group_compliance(c.bondline_file, group));
+  } catch (const bondline::NoSuchGroup& e) {
+    fail(c.places.bondline_group, e.what());
   } catch (const InputError& e) {
     fail(c.places.bondline_file, e.what());
   }
@@ -654,7 +668,7 @@ void use_bondline(Case& c, const fs::path& file) {
     fail(file.string(),
          fmt::format(
              "glue.compliance_t_mm_per_MPa = [{}] and glue.from_bondline ({} mm/MPa) contradict each other; give one",
-             fmt::join(given, ", "), measured.front()));
+             fmt::join(given, ", "), fmt::join(measured, ", ")));
   given = measured;
 }
 
@@ -668,7 +682,7 @@ Case case_from_sources(Case c, const std::vector<Source>& sources) {
       if (!given[i].node) continue;
       if (given[i].path == Path{"hotpress", "log", "file"}) log_folder = source.folder;
       const auto* key = find_key(given[i].path);
-      if (key->path == "glue.group") c.places.bondline_group = opening_of(given[i], *key);
+      if (key->path == "glue.group" || key->path == "glue.groups") c.places.bondline_group = opening_of(given[i], *key);
       if (!key->names_file) continue;
       const bool is_mat = key->path == "mat.file";
       (is_mat ? mat_folder : bondline_folder) = source.folder;
@@ -718,16 +732,33 @@ std::string read_text(const fs::path& file) {
   return text.str();
 }
 
-}  // namespace
-
-Case read_case(const fs::path& file, const std::vector<std::string>& overrides) {
+Case case_of_file(const fs::path& file, const std::vector<std::string>& overrides) {
   Source source{parse_toml(read_text(file), file.string()), file.string(), true, true,
                 fs::absolute(file).parent_path()};
   Case c;
   c.name = file.stem().string();
-  c = case_from_sources(std::move(c), with_overrides(std::move(source), overrides));
+  return case_from_sources(std::move(c), with_overrides(std::move(source), overrides));
+}
+
+}  // namespace
+
+Case read_case(const fs::path& file, const std::vector<std::string>& overrides) {
+  auto c = case_of_file(file, overrides);
   use_bondline(c, file);
   return c;
+}
+
+Case read_written_case(const fs::path& file) {
+  return case_of_file(file, {});
+}
+
+std::string name_of_glue(const Case& c, double compliance_t_mm_per_MPa) {
+  const auto groups = groups_of(c);
+  const auto& compliances = c.test.compliance_t_mm_per_MPa;
+  for (std::size_t i = 0; i < std::min(groups.size(), compliances.size()); ++i) {
+    if (glue::taken(compliances[i]) == glue::taken(compliance_t_mm_per_MPa)) return groups[i];
+  }
+  return glue::name_of_bond(compliance_t_mm_per_MPa);
 }
 
 Case case_from_text(const std::string& text, const std::string& source, const std::vector<std::string>& overrides) {
@@ -741,7 +772,7 @@ Case changed(const Case& c, const std::vector<std::string>& assignments, const s
   Case start;
   start.name = c.name;
   auto result = case_from_sources(std::move(start), sources);
-  if (result.bondline_file == c.bondline_file && result.bondline_group == c.bondline_group) return result;
+  if (result.bondline_file == c.bondline_file && groups_of(result) == groups_of(c)) return result;
   if (result.test.compliance_t_mm_per_MPa == c.test.compliance_t_mm_per_MPa)  // that of the result before, if any
     result.test.compliance_t_mm_per_MPa = Case().test.compliance_t_mm_per_MPa;
   use_bondline(result, source);

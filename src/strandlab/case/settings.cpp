@@ -142,7 +142,9 @@ std::vector<Declaration<Case>> bondline_settings() {
               "result of `strandlab bondline` whose group gives 1/D_t in place of compliance_t_mm_per_MPa; \"\" for "
               "none",
               &Case::bondline_file),
-      declare("group", "", kAny, "group of that result", &Case::bondline_group)};
+      declare("group", "", kAny, "group of that result", &Case::bondline_group),
+      declare("groups", "", kAny, "several groups of that result, in place of one: each gives its 1/D_t and its name",
+              &Case::bondline_groups)};
 }
 
 std::vector<Declaration<Case>> run_settings() {

@@ -38,8 +38,9 @@ std::string example_material() {
 }
 
 bool is_given(const Value& value) {
-  const auto* list = std::get_if<std::vector<double>>(&value);
-  return !list || !list->empty();
+  const auto* numbers = std::get_if<std::vector<double>>(&value);
+  const auto* texts = std::get_if<std::vector<std::string>>(&value);
+  return !(numbers && numbers->empty()) && !(texts && texts->empty());
 }
 
 // [hotpress] and what it names.

@@ -7,9 +7,16 @@
 #include <cmath>
 #include <map>
 #include <regex>
+#include <string_view>
+#include <utility>
 
 namespace strandlab::report {
 namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::array kLevels{"good"sv, "note"sv, "warning"sv};  // in the order of Level
+constexpr const char* kSpeedDocs = "docs/user-guide.md, \"The speed of the press\"";
 
 // "12.3 %", or "less than 0.1 %" of what is there but would round to nothing.
 std::string percent(double share, int digits = 1) {
@@ -38,8 +45,10 @@ Finding about_inertia(const std::vector<press::Record>& records, double judged_f
     if (r.compaction >= judged_from && r.internal_mJ() > 0) worst = std::max(worst, r.kinetic_mJ / r.internal_mJ());
   }
   if (worst == 0)
-    return {Level::kGood, fmt::format("The pressing ended before {} compaction, where inertia is first judged.",
-                                      rounded(judged_from))};
+    return {
+        Level::kGood,
+        fmt::format("The pressing ended before {} compaction, where inertia is first judged.", rounded(judged_from)),
+        About::kCalculation, "energies", kSpeedDocs};
   const double early = moved_until(records);
   const auto before =
       early > 0 && early < judged_from
@@ -49,24 +58,30 @@ Finding about_inertia(const std::vector<press::Record>& records, double judged_f
           fmt::format("The press was slow enough: from {} compaction on the motion of the wood never held more than {} "
                       "of the energy stored and dissipated in it (limit for the strands' own motion {}), and both "
                       "platens felt the same force within the limit.{}",
-                      rounded(judged_from), percent(worst), rounded(press::kKineticLimit), before)};
+                      rounded(judged_from), percent(worst), rounded(press::kKineticLimit), before),
+          About::kCalculation, "energies", kSpeedDocs};
 }
 
 Finding about_balance(const press::Record& end) {
   const double gap = std::abs(end.balance_error());
   if (gap > press::kBalanceLimit)
-    return {Level::kWarning, fmt::format("The energies are off by {} of the platens' work (limit {}).", percent(gap),
-                                         rounded(press::kBalanceLimit))};
+    return {Level::kWarning,
+            fmt::format("The energies are off by {} of the platens' work (limit {}).", percent(gap),
+                        rounded(press::kBalanceLimit)),
+            About::kCalculation, "energies", "docs/warnings.md, \"Pressing\""};
   return {Level::kGood,
-          fmt::format("The energies add up: all terms together match the platens' work to {}.", percent(gap, 2))};
+          fmt::format("The energies add up: all terms together match the platens' work to {}.", percent(gap, 2)),
+          About::kCalculation, "energies"};
 }
 
 Finding about_friction(const press::Record& end) {
   const double share = end.friction_mJ / end.platen_work_mJ;
   if (share > 1e-4)
     return {Level::kNote,
-            fmt::format("Strands slid on one another: friction took {} of the platens' work.", percent(share))};
-  return {Level::kNote, "Strands hardly slid on one another: friction took less than 0.01 % of the platens' work."};
+            fmt::format("Strands slid on one another: friction took {} of the platens' work.", percent(share)),
+            About::kCalculation, "energies"};
+  return {Level::kNote, "Strands hardly slid on one another: friction took less than 0.01 % of the platens' work.",
+          About::kCalculation, "energies"};
 }
 
 std::string joined(const std::vector<std::string>& parts) {
@@ -124,7 +139,8 @@ std::vector<Finding> softening_findings(const std::vector<StrandKind>& kinds) {
       {Level::kNote,
        fmt::format("Pressed cold: softened strands stand in for the heat and moisture of a press (yield_factor of {}). "
                    "The density profile is theirs, not yet that of a press cycle.",
-                   joined(softened))}};
+                   joined(softened)),
+       About::kBoard, "profile", "docs/crushing.md, \"Softened faces\""}};
 }
 
 std::vector<Finding> shape_findings(const std::vector<Morphology>& states) {
@@ -146,9 +162,11 @@ std::vector<Finding> shape_findings(const std::vector<Morphology>& states) {
                                       : "Strands keep apart: nothing overlaps."});
   }
   const double first = states.front().areas.void_fraction(), last = states.back().areas.void_fraction();
-  list.push_back({Level::kNote, states.size() > 1 ? fmt::format("Voids shrank from {} to {} of the section.",
-                                                                percent(first), percent(last))
-                                                  : fmt::format("Voids take {} of the section.", percent(first))});
+  list.push_back({Level::kNote,
+                  states.size() > 1
+                      ? fmt::format("Voids shrank from {} to {} of the section.", percent(first), percent(last))
+                      : fmt::format("Voids take {} of the section.", percent(first)),
+                  About::kBoard});
   return list;
 }
 
@@ -163,25 +181,46 @@ std::vector<Finding> test_findings(const std::vector<TestedState>& states) {
       floating.push_back(fmt::format("{} at {}", state.floating_strands, rounded(state.compaction)));
   }
   if (!last) return list;
-  list.push_back(floating.empty()
-                     ? Finding{Level::kGood,
-                               "No strand floats: each is glued, directly or through others, to both "
-                               "loaded ends."}
-                     : Finding{Level::kNote, fmt::format("Some strands float: they are glued to nothing that reaches "
-                                                         "both loaded ends and were left out of the tests ({} "
-                                                         "compaction).",
-                                                         joined(floating))});
-  list.push_back({Level::kNote, fmt::format("At {} compaction {} of the strands' facing length is glued.",
-                                            rounded(last->compaction), percent(last->glued_fraction, 0))});
+  list.push_back(floating.empty() ? Finding{Level::kGood,
+                                            "No strand floats: each is glued, directly or through others, to both "
+                                            "loaded ends.",
+                                            About::kBoard}
+                                  : Finding{Level::kNote,
+                                            fmt::format("Some strands float: they are glued to nothing that reaches "
+                                                        "both loaded ends and were left out of the tests ({} "
+                                                        "compaction).",
+                                                        joined(floating)),
+                                            About::kBoard});
+  list.push_back({Level::kNote,
+                  fmt::format("At {} compaction {} of the strands' facing length is glued.", rounded(last->compaction),
+                              percent(last->glued_fraction, 0)),
+                  About::kBoard, "", "docs/user-guide.md, \"Glue\""});
   return list;
 }
 
 nlohmann::json to_json(const std::vector<Finding>& findings) {
-  static constexpr std::array kNames{"good", "note", "warning"};
   auto list = nlohmann::json::array();
-  for (const auto& f : findings)
-    list.push_back({{"level", kNames[static_cast<std::size_t>(f.level)]}, {"text", f.text}});
+  for (const auto& f : findings) {
+    nlohmann::json entry{{"level", kLevels[static_cast<std::size_t>(f.level)]},
+                         {"text", f.text},
+                         {"about", f.about == About::kBoard ? "board" : "calculation"}};
+    if (!f.chart.empty()) entry["chart"] = f.chart;
+    if (!f.docs.empty()) entry["docs"] = f.docs;
+    list.push_back(std::move(entry));
+  }
   return list;
+}
+
+std::vector<Finding> findings_from_json(const nlohmann::json& list) {
+  std::vector<Finding> findings;
+  for (const auto& entry : list) {
+    const auto level = std::find(kLevels.begin(), kLevels.end(), entry.value("level", ""));
+    findings.push_back({level == kLevels.end() ? Level::kNote : static_cast<Level>(level - kLevels.begin()),
+                        entry.value("text", ""),
+                        entry.value("about", "") == "board" ? About::kBoard : About::kCalculation,
+                        entry.value("chart", ""), entry.value("docs", "")});
+  }
+  return findings;
 }
 
 }  // namespace strandlab::report

@@ -13,10 +13,14 @@
 namespace strandlab::report {
 
 enum class Level { kGood, kNote, kWarning };
+enum class About { kBoard, kCalculation };
 
 struct Finding {
   Level level = Level::kNote;
   std::string text;
+  About about = About::kCalculation;
+  std::string chart{};  // of the page, that shows it; empty: none
+  std::string docs{};   // the paragraph that explains it; empty: none
 };
 
 // Of a pressing whose inertia is judged from a compaction on (press::judged_from()): the press's own warnings, inertia,
@@ -41,7 +45,10 @@ struct TestedState {
 // A warning that several states share but for its numbers is told once, as the last of them has it.
 std::vector<Finding> test_findings(const std::vector<TestedState>& states);
 
-// [{"level": "good" | "note" | "warning", "text"}...], in the order given.
+// [{"level": "good" | "note" | "warning", "text", "about": "board" | "calculation", "chart", "docs"}...], in the order
+// given; chart and docs where there are any.
 nlohmann::json to_json(const std::vector<Finding>& findings);
+// The same back; what an older program left out is about the calculation.
+std::vector<Finding> findings_from_json(const nlohmann::json& list);
 
 }  // namespace strandlab::report

@@ -54,9 +54,9 @@ std::vector<Field> colourings(const Points<2>& points) {
     fields.push_back({field.name, label_of(field.name, unit), unit, 3, false,
                       [field](const Strand<2>& s, std::size_t p) { return (s.points.*field.values)[p]; }});
   });
-  fields.push_back({"stress_through_MPa", "Stress through thickness", "MPa", 2, true,
+  fields.push_back({"stress_through_MPa", "Stress through thickness (tension +)", "MPa", 2, true,
                     [=](const Strand<2>& s, std::size_t p) { return stress(s, p)(1, 1); }});
-  fields.push_back({"stress_along_MPa", "Stress along panel", "MPa", 1, true,
+  fields.push_back({"stress_along_MPa", "Stress along panel (tension +)", "MPa", 1, true,
                     [=](const Strand<2>& s, std::size_t p) { return stress(s, p)(0, 0); }});
   return fields;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <utility>
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/version.hpp"
@@ -26,8 +27,6 @@ namespace strandlab::report {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kPlace = "/*strandlab-data*/";
 
 std::string built_in_page() {
 #ifdef STRANDLAB_REPORT_PAGE
@@ -59,21 +58,27 @@ std::string empty_page() {
                   file.string(), given ? "" : ", and this program was built without Node.js", version()));
 }
 
-std::string filled_page(const std::string& page, const nlohmann::json& data) {
-  const auto place = page.find(kPlace);
-  if (place == std::string::npos) throw InputError("the report page has no place for the data of a run");
+std::string filled_page(const std::string& page, const Sheet& sheet, const nlohmann::json& data) {
   const auto text = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  std::string filled;
-  filled.reserve(page.size() + text.size() + 1024);
-  filled.append(page, 0, place);
+  std::string json;
+  json.reserve(text.size() + 1024);
   for (const char c : text) {
     if (c == '<')
-      filled += "\\u003c";
+      json += "\\u003c";
     else
-      filled += c;
+      json += c;
   }
-  filled.append(page, place + std::char_traits<char>::length(kPlace));
-  return filled;
+  std::string filled;
+  std::size_t behind = 0;
+  for (const auto& [place, content] : {std::pair{"/*strandlab-title*/", escaped(sheet.title)},
+                                       {"<!--strandlab-sheet-->", to_html(sheet)},
+                                       {"/*strandlab-data*/", json}}) {
+    const auto at = page.find(place, behind);
+    if (at == std::string::npos) throw InputError("the report page has no place for the data of a run");
+    filled.append(page, behind, at - behind).append(content);
+    behind = at + std::char_traits<char>::length(place);
+  }
+  return filled.append(page, behind);
 }
 
 }  // namespace strandlab::report

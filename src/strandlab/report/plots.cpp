@@ -110,15 +110,14 @@ Plot compliance_plot(const std::vector<PanelModulus>& moduli, const std::string&
 }
 
 Plot compaction_plot(const std::vector<PanelModulus>& moduli, const std::string& test,
-                     const std::vector<Curve>& references) {
+                     const std::vector<Curve>& references, const std::function<std::string(double)>& name_of_glue) {
   std::map<double, std::map<double, double>> curves;
   for (const auto& m : moduli) {
     if (m.test == test) curves[m.compliance_t_mm_per_MPa][1 / (1 - m.compaction)] = m.modulus_MPa;
   }
-  Plot plot{title_of(test), "1/(1 - C)", "modulus, MPa", "1/Dₜ, mm/MPa", CurveStyle::kLinesAndPoints, 0, 1, {},
+  Plot plot{title_of(test), "1/(1 - C)", "modulus, MPa", "glue, 1/Dₜ in mm/MPa", CurveStyle::kLinesAndPoints, 0, 1, {},
             references};
-  for (const auto& [compliance_t, points] : curves)
-    plot.curves.push_back(curve_of(fmt::format("{}", compliance_t), points));
+  for (const auto& [compliance_t, points] : curves) plot.curves.push_back(curve_of(name_of_glue(compliance_t), points));
   fit_axis(plot, std::nullopt);
   return plot;
 }

@@ -30,6 +30,10 @@ Curve curve_of(const std::map<double, double>& points) {
 
 }  // namespace
 
+bool depends_on_glue(const std::string& model) {
+  return model == kShearLag;
+}
+
 std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows, const std::vector<PanelModulus>& moduli,
                                          wood::OffAxis off_axis) {
   const bool bridged = has_gaps_along(rows);
@@ -79,7 +83,7 @@ std::vector<Curve> theory_against_compliance(const std::vector<TheoryModulus>& m
 std::vector<Curve> theory_against_compaction(const std::vector<TheoryModulus>& moduli, const std::string& test) {
   std::map<std::string, std::map<double, double>> points;
   for (const auto& m : moduli)
-    if (m.test == test && m.model != kShearLag) points[m.model][1 / (1 - m.compaction)] = m.modulus_MPa;
+    if (m.test == test && !depends_on_glue(m.model)) points[m.model][1 / (1 - m.compaction)] = m.modulus_MPa;
   std::vector<Curve> curves;
   for (const auto& [model, line] : points) {
     curves.push_back(curve_of(line));

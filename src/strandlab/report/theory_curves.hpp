@@ -20,6 +20,9 @@ struct TheoryModulus {
   double modulus_MPa = 0;
 };
 
+// Whether a model's values follow the glue; the others are those of rows without any undulation, bonded perfectly.
+bool depends_on_glue(const std::string& model);
+
 // For each simulated modulus those of the models: tension by rule of mixtures and, where rows along the panel have gaps
 // that strands bridge through glue, by shear-lag; bending as a laminated beam. Rows off the grain as the simulated
 // ones, by `off_axis`. Throws as the models, and InputError for a test that is no vtest::Kind.

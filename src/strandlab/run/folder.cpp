@@ -342,7 +342,7 @@ Json read_run_record(const fs::path& folder) {
 }
 
 cases::Case read_run_case(const fs::path& folder) {
-  auto c = cases::read_case(folder / "case.toml", {"glue.from_bondline=\"\"", "glue.group=\"\""});
+  auto c = cases::read_written_case(folder / "case.toml");
   c.schedule.compactions = c.states.compactions;
   if (!c.schedule.compactions.empty()) return c;
   const auto record = read_run_record(folder);

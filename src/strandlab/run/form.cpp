@@ -34,10 +34,9 @@ std::optional<std::string> remark_on_length(const Formed& formed) {
   const double length = formed.mat.length_mm;
   if (length >= kFewStrands * longest) return std::nullopt;
   return fmt::format(
-      "the mat is {:g} mm long, {:.2g} lengths of its longest strands: moduli scatter between seeds; take several, or "
-      "a "
-      "mat of {:g} mm",
-      length, length / longest, kFewStrands * longest);
+      "the mat is {:g} mm long, {:.2g} lengths of its longest strands: moduli scatter between seeds; the mean of four "
+      "seeds scatters half as much, a mat of {:g} mm holds {:g} lengths",
+      length, length / longest, kFewStrands * longest, kFewStrands);
 }
 
 void refuse_untestable(const Formed& formed) {

@@ -12,11 +12,13 @@
 #include "strandlab/files/atomic_file.hpp"
 #include "strandlab/files/json_text.hpp"
 #include "strandlab/files/text_file.hpp"
+#include "strandlab/glue/bond.hpp"
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/report/frames.hpp"
 #include "strandlab/report/html.hpp"
 #include "strandlab/report/morphology.hpp"
 #include "strandlab/run/folder.hpp"
+#include "strandlab/run/sheet.hpp"
 #include "strandlab/vtest/vtest.hpp"
 #include "strandlab/wood/laws/law.hpp"
 
@@ -103,28 +105,19 @@ bool finished(const Json& record, const char* step) {
   return steps.contains(step) && steps[step].value("finished", false);
 }
 
-// What the steps said of their numbers, warnings first.
-Json findings_of(const Json& record) {
-  Json warnings = Json::array(), others = Json::array();
-  const auto steps = record.value("steps", Json::object());
-  for (const auto* step : {"press", "test"}) {
-    if (!finished(record, step) || !steps[step].contains("findings")) continue;
-    for (const auto& finding : steps[step]["findings"])
-      (finding.value("level", "") == "warning" ? warnings : others).push_back(finding);
-  }
-  warnings.insert(warnings.end(), others.begin(), others.end());
-  return warnings;
-}
-
 // What the names in the tables are called on the page.
-Json words() {
-  Json tests, quantities;
+Json words(const cases::Case& c) {
+  Json tests, quantities, glues = Json::array();
+  for (const double compliance : c.test.compliance_t_mm_per_MPa) {
+    const double taken = glue::taken(compliance);
+    glues.push_back({{"compliance_t_mm_per_MPa", taken}, {"name", cases::name_of_glue(c, taken)}});
+  }
   for (const auto& name : vtest::kind_names()) tests[name] = vtest::label(vtest::kind_from_name(name));
   for (const auto* name : {"grain_angle_deg", "strand_thickness_strain"}) {
     const auto w = report::words_of(name);
     quantities[name] = {{"title", w.title}, {"axis", w.axis}, {"factor", w.factor}};
   }
-  return {{"tests", tests}, {"quantities", quantities}};
+  return {{"tests", tests}, {"quantities", quantities}, {"glues", glues}};
 }
 
 std::vector<fs::path> files_in(const fs::path& folder) {
@@ -149,16 +142,14 @@ std::vector<Panel<2>> read_frames(const fs::path& run_folder) {
   return frames;
 }
 
-Json report_data(const fs::path& run_folder) {
-  auto record = run::read_run_record(run_folder);
-  record["steps"].erase("page");  // whether there was a page before changes nothing in this one
-  const auto c = read_run_case(run_folder);
+namespace {
+
+Json data_of(const cases::Case& c, const Json& record, const fs::path& run_folder) {
   Json run{{"case", describe(c, record)},
            {"case_text", needed_text(run_folder / "case.toml")},
            {"record", record},
            {"mat", nullptr},
-           {"findings", findings_of(record)},
-           {"words", words()},
+           {"words", words(c)},
            {"tables", Json::object()},
            {"frames", report::pack_frames({}, {})}};
   if (finished(record, "mat")) run["mat"] = read_object(run_folder / "mat.json", "a mat file");
@@ -172,13 +163,19 @@ Json report_data(const fs::path& run_folder) {
     }
     run["frames"] = report::pack_frames(read_frames(run_folder), c.test.curing);
   }
-  return {{"format", 1}, {"run", run}};
+  return {{"format", 2}, {"run", run}};
 }
+
+}  // namespace
 
 fs::path write_report_page(const fs::path& run_folder, const fs::path& out) {
   const auto page = report::empty_page();
+  auto record = run::read_run_record(run_folder);
+  record["steps"].erase("page");  // whether there was a page before changes nothing in this one
+  const auto c = read_run_case(run_folder);
+  const auto data = data_of(c, record, run_folder);
   auto file = out.empty() ? run_folder / "report.html" : out;
-  files::write_atomically(file, report::filled_page(page, report_data(run_folder)));
+  files::write_atomically(file, report::filled_page(page, sheet_of(c, record, data["run"]["mat"]), data));
   return file;
 }
 

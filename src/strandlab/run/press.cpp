@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "strandlab/case/estimate.hpp"
+#include "strandlab/report/board_findings.hpp"
 #include "strandlab/run/duration.hpp"
 #include "strandlab/run/press_hot.hpp"
 #include "strandlab/run/profile_bins.hpp"
@@ -62,7 +63,8 @@ std::vector<report::Finding> findings_of(const cases::Case& c, const std::vector
                                          const std::vector<std::string>& warnings, const Shapes& shapes) {
   auto findings = report::pressing_findings(records, press::judged_from(c.schedule), warnings);
   for (const auto& more :
-       {report::softening_findings(cases::strand_kinds(c)), report::shape_findings(shapes.morphologies)})
+       {report::pressure_findings(records), report::profile_findings(shapes.density_profiles),
+        report::softening_findings(cases::strand_kinds(c)), report::shape_findings(shapes.morphologies)})
     findings.insert(findings.end(), more.begin(), more.end());
   return findings;
 }

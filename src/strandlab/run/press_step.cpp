@@ -9,6 +9,7 @@
 #include "strandlab/core/error.hpp"
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/io/vtk.hpp"
+#include "strandlab/report/board_findings.hpp"
 #include "strandlab/report/density_profiles.hpp"
 #include "strandlab/report/frames.hpp"
 #include "strandlab/report/hotpress_results.hpp"
@@ -203,6 +204,7 @@ void press_into(Journey& journey) {
   report::press_table(outcome.records).write(folder.file("press.csv"));
   write_what_follows(journey, outcome.records, outcome.warnings);
   folder.record(Step::kPress).update(summary(outcome, cases::thread_count(journey.formed.c)));
+  folder.record(Step::kPress)["highest_stress_MPa"] = report::highest_stress_MPa(outcome.records);
   folder.set_finished(Step::kPress);
   journey.log.say(fmt::format("press: {} steps in {}, {:.1f} M particle-steps/s -> {}", outcome.steps,
                               duration(outcome.wall_s), 1e-6 * outcome.particle_steps_per_s,

@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
+#include <utility>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/report/board_findings.hpp"
+#include "strandlab/report/theory_curves.hpp"
+#include "strandlab/run/theory_rows.hpp"
 #include "strandlab/statics/cholesky.hpp"
 
 namespace strandlab::run {
@@ -130,13 +134,23 @@ std::vector<report::PanelModulus> moduli_of(const Formed& formed, const Tested& 
   return moduli;
 }
 
-std::vector<report::Finding> findings_of(const Tested& tested) {
+std::vector<report::Finding> findings_of(const Formed& formed, const Tested& tested) {
   std::vector<report::TestedState> states;
   for (const auto& state : tested) {
     states.push_back({state.compaction, !state.not_testable, state.result.floating_strands, state.result.glued_fraction,
                       state.result.warnings});
   }
-  return report::test_findings(states);
+  auto findings = report::test_findings(states);
+  const auto moduli = moduli_of(formed, tested);
+  const auto theory = report::theory_moduli(theory_rows(formed.c, formed.mat), moduli, formed.c.off_axis);
+  for (auto& finding : report::stiffness_findings(
+           moduli, theory, [&](double compliance_t) { return cases::name_of_glue(formed.c, compliance_t); }))
+    findings.push_back(std::move(finding));
+  if (const auto remark = remark_on_length(formed)) {
+    findings.push_back({report::Level::kNote, fmt::format("Scatter to expect: {}.", *remark), report::About::kBoard, "",
+                        "docs/user-guide.md, \"Many panels\""});
+  }
+  return findings;
 }
 
 }  // namespace strandlab::run

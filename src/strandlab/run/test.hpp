@@ -51,6 +51,7 @@ void tell_progress(const cases::Case& c, std::size_t index, Observer& observer);
 void refuse_if_none_is_testable(const Tested& tested);
 
 std::vector<report::PanelModulus> moduli_of(const Formed& formed, const Tested& tested);
-std::vector<report::Finding> findings_of(const Tested& tested);
+// What moduli, models of them and the mat's length say, in plain words.
+std::vector<report::Finding> findings_of(const Formed& formed, const Tested& tested);
 
 }  // namespace strandlab::run

@@ -29,12 +29,13 @@ void write_plots(Journey& journey, const std::vector<report::PanelModulus>& modu
   fs::create_directories(plots);
   const auto theory = report::theory_moduli(theory_rows(c, journey.formed.mat), moduli, c.off_axis);
   report::theory_table(theory).write(journey.folder.file("theory.csv"));
+  const auto name = [&c](double compliance_t) { return cases::name_of_glue(c, compliance_t); };
   std::vector<report::Picture> pictures;
   for (const auto kind : c.test.kinds) {
     const std::string test = vtest::name(kind);
     pictures.push_back({report::compliance_plot(moduli, test, report::theory_against_compliance(theory, test)),
                         plots / (test + "_against_compliance.png")});
-    pictures.push_back({report::compaction_plot(moduli, test, report::theory_against_compaction(theory, test)),
+    pictures.push_back({report::compaction_plot(moduli, test, report::theory_against_compaction(theory, test), name),
                         plots / (test + "_against_compaction.png")});
   }
   draw_plots(journey, Step::kTest, pictures);
@@ -105,7 +106,7 @@ Tested test_into(Journey& journey) {
   refuse_if_none_is_testable(tested);
   const auto moduli = moduli_of(journey.formed, tested);
   write_plots(journey, moduli);
-  folder.record(Step::kTest)["findings"] = report::to_json(findings_of(tested));
+  folder.record(Step::kTest)["findings"] = report::to_json(findings_of(journey.formed, tested));
   folder.set_finished(Step::kTest);
   journey.log.say(fmt::format("test: {} moduli -> {}", moduli.size(), folder.file("moduli.csv").string()));
   return tested;

@@ -51,6 +51,7 @@ class Base {
     auto c = file_.empty() ? cases::case_from_text(text_, name_, overrides) : cases::read_case(file_, overrides);
     c.bondline_file.clear();  // the case has its number
     c.bondline_group.clear();
+    c.bondline_groups.clear();
     c.threads = 1;
     return c;
   }

@@ -44,6 +44,25 @@ TEST_F(CaseBondline, GroupGivesTheCompliance) {
             "no error");
 }
 
+// Several groups give a compliance and a name each, in the order asked for; other compliances have names of their own.
+TEST_F(CaseBondline, GroupsGiveCompliancesAndNames) {
+  put(folder_ / "dls.json",
+      R"({"format": "strandlab bondline 1", "groups": [{"group": "8 %", "compliance_t_mm_per_MPa": 0.01},)"
+      R"({"group": "2 %", "compliance_t_mm_per_MPa": 0.03}, {"group": "best", "compliance_t_mm_per_MPa": -0.001}]})");
+  const Case c = read("from_bondline = \"dls.json\"\ngroups = [\"2 %\", \"8 %\", \"best\"]");
+  EXPECT_EQ(c.test.compliance_t_mm_per_MPa, (std::vector<double>{0.03, 0.01, -0.001}));
+  EXPECT_EQ(name_of_glue(c, 0.01), "8 %");
+  EXPECT_EQ(name_of_glue(c, 0), "best") << "a negative compliance is taken as a perfect bond";
+  EXPECT_EQ(name_of_glue(c, 0.0105), "PF 25 %");
+  EXPECT_EQ(name_of_glue(Case(), 0), "perfect bond");
+  EXPECT_EQ(name_of_glue(Case(), 0.02), "1/D_t 0.02");
+  EXPECT_NE(message("from_bondline = \"dls.json\"\ngroup = \"8 %\"\ngroups = [\"2 %\"]").find("give one of the two"),
+            std::string::npos);
+  // The message is about the key that holds the wrong name.
+  const auto wrong = message("from_bondline = \"dls.json\"\ngroup = \"8 %\"", {"glue.group=9 %"});
+  EXPECT_EQ(wrong.rfind("--set glue.group=9 %: glue.group = \"9 %\": ", 0), 0U) << wrong;
+}
+
 TEST_F(CaseBondline, WhatDoesNotFitIsNamed) {
   EXPECT_NE(message("from_bondline = \"dls.json\"\ngroup = \"PF-1\"").find("has no group 'PF-1'; it has: PF-25"),
             std::string::npos);

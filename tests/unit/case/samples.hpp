@@ -28,6 +28,7 @@ inline std::string other_value(const Key& key, const Case& c, const std::string&
   if (key.path == "mat.file") return "\"/data/mat.json\"";
   if (key.path == "glue.from_bondline") return "\"/data/dls.json\"";
   if (key.path == "glue.group") return "\"PF-25\"";
+  if (key.path == "glue.groups") return "[\"PF-25\", \"PF-1\"]";
   if (key.path == "mat.rows") return "[\"core*3\"]";
   if (key.path == "hotpress.schedule") return "[\"close to 12 mm in 25 s\"]";
   if (key.path == "hotpress.log.file") return "\"/data/plc.csv\"";

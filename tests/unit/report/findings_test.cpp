@@ -122,9 +122,19 @@ TEST(Findings, OfStatesThatCannotBeTestedSayNothingOfTheirGlue) {
   EXPECT_EQ(list[0].level, Level::kWarning);
 }
 
+// A run of an older program has levels and texts only.
+TEST(Findings, OfAnOlderProgramAreAboutTheCalculation) {
+  const auto list = findings_from_json(nlohmann::json::parse(R"([{"level":"warning","text":"c"}])"));
+  ASSERT_EQ(list.size(), 1U);
+  EXPECT_EQ(list[0].level, Level::kWarning);
+  EXPECT_EQ(list[0].about, About::kCalculation);
+}
+
 TEST(Findings, AsJson) {
-  const auto json = to_json({{Level::kGood, "a"}, {Level::kNote, "b"}, {Level::kWarning, "c"}});
-  EXPECT_EQ(json.dump(), R"([{"level":"good","text":"a"},{"level":"note","text":"b"},{"level":"warning","text":"c"}])");
+  const auto json = to_json({{Level::kGood, "a"}, {Level::kWarning, "c", About::kBoard, "stress", "docs/x.md"}});
+  EXPECT_EQ(json.dump(), R"([{"about":"calculation","level":"good","text":"a"},)"
+                         R"({"about":"board","chart":"stress","docs":"docs/x.md","level":"warning","text":"c"}])");
+  EXPECT_EQ(to_json(findings_from_json(json)), json);
 }
 
 }  // namespace

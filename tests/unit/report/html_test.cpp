@@ -10,11 +10,14 @@
 namespace strandlab::report {
 namespace {
 
-constexpr const char* kPage = "<p>before</p><script type=\"application/json\">/*strandlab-data*/</script><p>after</p>";
+constexpr const char* kPage =
+    "<title>/*strandlab-title*/</title><main><!--strandlab-sheet--></main><script "
+    "type=\"application/json\">/*strandlab-data*/</script><p>after</p>";
+const Sheet kSheet{"board", {}, {}, {}, {}, {}};
 
 TEST(FilledPage, HostileNamesStayText) {
   const std::string name = "</script><script>alert('\"\\')</script><!-- \xF0\x9F\xAA\xB5 \n & \xE2\x80\xA8";
-  const auto filled = filled_page(kPage, {{name, name}});
+  const auto filled = filled_page(kPage, kSheet, {{name, name}});
   const auto begin = filled.find("json\">") + 6, end = filled.find("</script><p>after</p>");
   ASSERT_NE(end, std::string::npos);
   const auto data = filled.substr(begin, end - begin);
@@ -23,12 +26,18 @@ TEST(FilledPage, HostileNamesStayText) {
 }
 
 TEST(FilledPage, BytesThatAreNotTextAreReplaced) {
-  const auto filled = filled_page(kPage, {{"name", "a\xFF"}});
+  const auto filled = filled_page(kPage, kSheet, {{"name", "a\xFF"}});
   EXPECT_NE(filled.find("a\xEF\xBF\xBD"), std::string::npos) << "by U+FFFD";
 }
 
 TEST(FilledPage, WithoutAPlaceForDataIsRefused) {
-  EXPECT_THROW(filled_page("<html></html>", {}), InputError);
+  EXPECT_THROW(filled_page("<html></html>", kSheet, {}), InputError);
+}
+
+TEST(FilledPage, HasTitleAndSheet) {
+  const auto filled = filled_page(kPage, kSheet, {});
+  EXPECT_NE(filled.find("<title>board</title>"), std::string::npos);
+  EXPECT_NE(filled.find("<h1>board</h1>"), std::string::npos);
 }
 
 class Share : public ::testing::Test {

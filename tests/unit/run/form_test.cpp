@@ -15,8 +15,8 @@ TEST(Formed, IsRemarkedOnWhereShorterThanThreeStrands) {
   ASSERT_TRUE(remark.has_value());
   EXPECT_EQ(
       *remark,
-      "the mat is 100 mm long, 0.67 lengths of its longest strands: moduli scatter between seeds; take several, or a "
-      "mat of 450 mm");
+      "the mat is 100 mm long, 0.67 lengths of its longest strands: moduli scatter between seeds; the mean of four "
+      "seeds scatters half as much, a mat of 450 mm holds 3 lengths");
   EXPECT_FALSE(with_length("450").has_value());
 }
 
