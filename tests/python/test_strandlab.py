@@ -403,6 +403,21 @@ class Studies(unittest.TestCase):
                     pass  # it has ended
 
 
+class Packaging(unittest.TestCase):
+    def test_pip_and_cmake_agree(self):
+        import tomllib
+        tree = pathlib.Path(__file__).parents[2]
+        project = tomllib.loads((tree / "pyproject.toml").read_text())
+        version = project["tool"]["scikit-build"]["metadata"]["version"]
+        found = re.search(version["regex"], (tree / version["input"]).read_text())
+        self.assertEqual(found["value"], strandlab.__version__)
+        cmake = (tree / "python" / "CMakeLists.txt").read_text()
+        for target in project["tool"]["scikit-build"]["build"]["targets"]:
+            self.assertIn(f"pybind11_add_module({target} ", cmake)
+        for component in project["tool"]["scikit-build"]["install"]["components"]:
+            self.assertIn(f"COMPONENT {component})", cmake)
+
+
 class Types(unittest.TestCase):
     def test_the_stubs_name_what_the_module_has(self):
         stub = ast.parse((pathlib.Path(strandlab.__file__).parent / "_core.pyi").read_text())
