@@ -23,7 +23,7 @@ namespace {
 
 py::dict cure(const cases::Case& c, const Panel<2>& panel) {
   files::CsvTable table({"strand_a", "strand_b", "x_mm", "y_mm", "length_mm", "gap_mm"});
-  for (const auto& point : glue::cure(panel, c.test.curing)) {
+  for (const auto& point : without_lock([&] { return glue::cure(panel, c.test.curing); })) {
     const Vec<2> middle = 0.5 * (point.a.position + point.b.position);
     table.add_row({static_cast<long long>(point.a.strand), static_cast<long long>(point.b.strand), middle[0], middle[1],
                    point.area, point.gap});
@@ -34,15 +34,12 @@ py::dict cure(const cases::Case& c, const Panel<2>& panel) {
 py::dict theory_of(const cases::Case& c) {
   theory::Question question;
   question.off_axis = c.off_axis;
-  return columns_of(report::estimate_table(theory::estimate(run::theory_question(c, std::move(question), {}, {}))));
+  return columns_of(without_lock(
+      [&] { return report::estimate_table(theory::estimate(run::theory_question(c, std::move(question), {}, {}))); }));
 }
 
 py::dict hot_press(const cases::Case& c) {
-  run::HotPressed pressed;
-  {
-    const py::gil_scoped_release released;
-    pressed = run::hotpress(c);
-  }
+  const auto pressed = without_lock([&] { return run::hotpress(c); });
   py::dict answer;
   answer["record"] = columns_of(report::hotpress_table(pressed.band.cycle));
   answer["profiles"] = columns_of(report::profiles_table(pressed.band.cycle));
@@ -57,7 +54,7 @@ py::dict bond_lines(const std::filesystem::path& file, const std::vector<std::st
   bondline::Options options;
   options.group_by = group_by;
   options.within = within;
-  const auto analysis = bondline::analyse(bondline::read_specimens(file), options);
+  const auto analysis = without_lock([&] { return bondline::analyse(bondline::read_specimens(file), options); });
   py::dict answer;
   answer["specimens"] = columns_of(report::specimen_table(analysis));
   answer["groups"] = columns_of(report::group_table(analysis));

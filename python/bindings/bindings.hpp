@@ -16,9 +16,17 @@ namespace py = pybind11;
 // Columns by name: lists of numbers are NumPy arrays, others lists of str.
 py::dict columns_of(const files::CsvTable& table);
 
+// Calls work() while other threads of Python run: it must not touch anything of Python.
+template <class Work>
+auto without_lock(const Work& work) {
+  const py::gil_scoped_release released;
+  return work();
+}
+
 void bind_case(py::module_& module);
 void bind_panel(py::module_& module);
 void bind_steps(py::module_& module);
 void bind_answers(py::module_& module);
+void bind_studies(py::module_& module);
 
 }  // namespace strandlab::python

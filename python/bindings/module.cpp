@@ -66,4 +66,5 @@ PYBIND11_MODULE(_core, module) {
   bind_panel(module);
   bind_steps(module);
   bind_answers(module);
+  bind_studies(module);
 }

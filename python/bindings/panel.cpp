@@ -66,6 +66,7 @@ py::array cells_of(const Strand<2>& strand) {
     for (std::size_t k = 0; k < corners.size(); ++k)
       at(static_cast<py::ssize_t>(p), static_cast<py::ssize_t>(k)) = static_cast<long long>(corners[k]);
   }
+  cells.attr("setflags")(py::arg("write") = false);
   return cells;
 }
 
@@ -98,7 +99,7 @@ void bind_panel(py::module_& module) {
                                  strands.append(py::cast(&strand, py::return_value_policy::reference_internal, self));
                                return strands;
                              })
-      .def("to_vtk", &io::write_vtu<2>, py::arg("file"));
+      .def("to_vtk", &io::write_vtu<2>, py::arg("file"), py::call_guard<py::gil_scoped_release>());
   module.def("field_units", &field_units);
   module.def(
       "read_panel",

@@ -67,8 +67,9 @@ py::dict press_record(const PressedPanels& pressed) {
 }
 
 py::dict density_profile(const run::Formed& formed, const Panel<2>& panel, double compaction, int bins) {
-  const auto made =
-      profile::density_profile(panel, bins > 0 ? bins : run::bins_of_one_cell(formed.c, panel, compaction));
+  const auto made = without_lock([&] {
+    return profile::density_profile(panel, bins > 0 ? bins : run::bins_of_one_cell(formed.c, panel, compaction));
+  });
   files::CsvTable table({"height_mm", "density_kg_m3"});
   for (int i = 0; i < made.bins(); ++i)
     table.add_row({(i + 0.5) * made.bin_height_mm(), made.density_kg_m3[static_cast<std::size_t>(i)]});

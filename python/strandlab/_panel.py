@@ -103,6 +103,18 @@ class Panel:
         """Number of material points."""
         return sum(len(strand) for strand in self.strands)
 
+    @property
+    def fields(self) -> dict[str, np.ndarray[Any, Any]]:
+        """The fields of all points, strand after strand: copies, where each strand's own are views."""
+        return {field: self[field] for field in self.strands[0].fields}
+
+    def __getitem__(self, field: str) -> np.ndarray[Any, Any]:
+        import numpy as np
+
+        if field not in self.strands[0].fields:
+            raise KeyError(f"the points of this panel have no field {field}; they have {', '.join(self.strands[0].fields)}")
+        return np.concatenate([strand[field] for strand in self.strands])
+
     def to_vtk(self, file: str | os.PathLike[str]) -> None:
         """Writes a .vtu file for ParaView."""
         self._core.to_vtk(os.fspath(file))
@@ -129,8 +141,7 @@ class Panel:
         else:
             for strand in self.strands:
                 polygons.extend(strand.corners_mm()[strand.cells()])
-            values = np.concatenate([strand[field] for strand in self.strands])
-            drawn = PolyCollection(polygons, array=values, **{"edgecolors": "face", "linewidths": 0.1, **style})
+            drawn = PolyCollection(polygons, array=self[field], **{"edgecolors": "face", "linewidths": 0.1, **style})
             unit = Strand.units()[field][0]
             ax.figure.colorbar(drawn, ax=ax, label=field if unit == "1" else f"{field} ({unit})", orientation="horizontal", aspect=40)
         ax.add_collection(drawn)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import os
 from pathlib import Path
@@ -11,18 +10,10 @@ from typing import Any, Callable, Iterator, Sequence
 from . import _core as core
 from ._case import Case
 from ._panel import Panel
+from ._tables import Table, as_table, read_table
+from ._types import OnProgress
 
-Table = Any  # pandas.DataFrame, or a dict of arrays
-OnProgress = Callable[[str, float, str], object]
 OnState = Callable[[Panel], object]
-
-
-def _table(columns: dict[str, Any]) -> Table:
-    try:
-        import pandas
-    except ImportError:
-        return columns
-    return pandas.DataFrame(columns)
 
 
 class Mat:
@@ -53,7 +44,7 @@ class Mat:
     @property
     def strands(self) -> Table:
         """row (0 at the bottom), kind, x0_mm, x1_mm, bottom_mm, thickness_mm of every strand."""
-        return _table(self._core.strands())
+        return as_table(self._core.strands())
 
     @property
     def panel(self) -> Panel:
@@ -81,7 +72,7 @@ class Pressed:
     @property
     def record(self) -> Table:
         """The columns of press.csv."""
-        return _table(self._core.record())
+        return as_table(self._core.record())
 
     def __getitem__(self, number: int) -> Panel:
         return self.panels[number]
@@ -108,7 +99,7 @@ class Tested:
     @property
     def moduli(self) -> Table:
         """The columns of moduli.csv; a panel that cannot be tested has no rows."""
-        return _table(self._moduli)
+        return as_table(self._moduli)
 
     @property
     def not_testable(self) -> dict[float, str]:
@@ -117,7 +108,7 @@ class Tested:
 
     def slips(self, number: int = -1) -> Table:
         """How far the glue points of a panel slide in tension with the softest glue, per unit of strain."""
-        return _table(self._states[number].slips())
+        return as_table(self._states[number].slips())
 
     def __repr__(self) -> str:
         return f"<strandlab.Tested {len(self._moduli['modulus_MPa'])} moduli>"
@@ -174,17 +165,7 @@ class FolderRun:
 
     def table(self, name: str) -> Table:
         """A CSV file of the folder by its name: "moduli", "press", "morphology"..."""
-        file = self.folder / f"{name}.csv"
-        if not file.is_file():
-            there = ", ".join(sorted(path.stem for path in self.folder.glob("*.csv"))) or "none"
-            raise core.InputError(f"{self.folder}: no table {name}; there are {there}")
-        try:
-            import pandas
-        except ImportError:
-            with file.open(newline="", encoding="utf-8") as stream:
-                header, *rows = csv.reader(stream)
-            return {column: _numbers([row[i] for row in rows]) for i, column in enumerate(header)}
-        return pandas.read_csv(file, float_precision="round_trip")
+        return read_table(self.folder, name)
 
     @property
     def moduli(self) -> Table:
@@ -202,14 +183,6 @@ class FolderRun:
 
     def __repr__(self) -> str:
         return f"<strandlab.FolderRun {self.folder}>"
-
-
-def _numbers(texts: list[str]) -> Any:
-    import numpy as np
-    try:
-        return np.array([float(text) for text in texts])
-    except ValueError:
-        return texts
 
 
 def form(case: Case) -> Mat:
@@ -256,12 +229,12 @@ def profile(panel: Panel, bins: int | None = None) -> Table:
     """Density through the thickness: height_mm above the bottom face, density_kg_m3; bins of one cell of the press, or so many."""
     if bins is not None and bins < 1:
         raise core.InputError(f"profile: bins = {bins}: must be 1 or more")
-    return _table(core.density_profile(_formed_of(panel), panel._core, panel.compaction, bins or 0))
+    return as_table(core.density_profile(_formed_of(panel), panel._core, panel.compaction, bins or 0))
 
 
 def cure(panel: Panel) -> Table:
     """Glue points of a panel: strand_a, strand_b (numbers in panel.strands), x_mm, y_mm, length_mm of glue line, gap_mm."""
-    return _table(core.cure(panel.case._core, panel._core))
+    return as_table(core.cure(panel.case._core, panel._core))
 
 
 def run(case: Case, folder: str | os.PathLike[str] | None = None, on_progress: OnProgress | None = None,
@@ -292,12 +265,12 @@ class HotPress:
     @property
     def record(self) -> Table:
         """The columns of hotpress.csv, one row per step."""
-        return _table(self._record)
+        return as_table(self._record)
 
     @property
     def profiles(self) -> Table:
         """The columns of transfer_profiles.csv."""
-        return _table(self._profiles)
+        return as_table(self._profiles)
 
     def __repr__(self) -> str:
         return "\n".join(self.summary)
@@ -310,7 +283,7 @@ def hotpress(case: Case) -> HotPress:
 
 def theory(case: Case) -> Table:
     """Closed-form estimates of the case's panel: model, compaction, density_kg_m3, compliance_t_mm_per_MPa, ..., modulus_MPa."""
-    return _table(core.theory(case._core))
+    return as_table(core.theory(case._core))
 
 
 class BondLines:
@@ -321,15 +294,15 @@ class BondLines:
 
     @property
     def specimens(self) -> Table:
-        return _table(self._answer["specimens"])
+        return as_table(self._answer["specimens"])
 
     @property
     def groups(self) -> Table:
-        return _table(self._answer["groups"])
+        return as_table(self._answer["groups"])
 
     @property
     def comparisons(self) -> Table:
-        return _table(self._answer["comparisons"])
+        return as_table(self._answer["comparisons"])
 
     def write(self, file: str | os.PathLike[str]) -> None:
         """Writes the result that glue.from_bondline names."""

@@ -1,5 +1,5 @@
 """Installs the laboratory into a prefix of its own, builds an example against it, and runs that in an empty folder:
-example.py BUILD EXAMPLE CMAKE CXX CC"""
+example.py BUILD EXAMPLE CMAKE CXX CC PYTHON"""
 
 import pathlib
 import re
@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tempfile
 
-BUILD, EXAMPLE, CMAKE, CXX, CC = sys.argv[1:]
+BUILD, EXAMPLE, CMAKE, CXX, CC, PYTHON = sys.argv[1:]
 
 
 def run(*command, cwd=None):
@@ -33,4 +33,7 @@ with tempfile.TemporaryDirectory(prefix="strandlab_package_") as name:
         sys.exit(f"FAILED: not the moduli asked for:\n{result.stdout}")
     if len(result.stdout.splitlines()) != 5 or result.stderr or left:
         sys.exit(f"FAILED: the library printed or wrote something: {left}\n{result.stdout}{result.stderr}")
+    if PYTHON:  # the module lies where this version of Debian's Python looks below a prefix that is not /usr
+        packages = run(PYTHON, "-c", "import sys; print(f'lib/python{sys.version_info.major}.{sys.version_info.minor}/dist-packages')").stdout.strip()
+        run(PYTHON, "-B", "-c", f"import sys; sys.path.insert(0, '{folder / 'prefix' / packages}'); import strandlab; strandlab.Case()", cwd=empty)
 print("failures: 0")

@@ -3,11 +3,13 @@
 Nothing here checks physics anew: the same library gave the program's results, which must be the same bits here.
 """
 
+import ast
 import copy
 import gc
 import os
 import pathlib
 import pickle
+import re
 import signal
 import subprocess
 import sys
@@ -26,10 +28,58 @@ SMALL = {"mat.length_mm": 12, "mat.rows": ["surface", "core*2", "surface"], "kin
          "press.speed_m_s": 64, "press.compactions": [0, 0.1], "run.threads": 1, "glue.compliance_t_mm_per_MPa": [0, 0.05]}
 
 
+HOT = SMALL | {"press.densities_kg_m3": [400], "hotpress.cells": 10, "press.speed_m_s": 32,
+               "hotpress.schedule": ["close to 400 kg/m3 in 2 s", "hold until 10 s", "vent 2 s", "open 3 s"]}
+HOT.pop("press.compactions")
+
+# Two rows of 5 mm: a tenth of a second of work.
+TINY = {"mat.length_mm": 5, "mat.rows": ["surface", "core"], "kinds.core.length_mm": 2, "kinds.core.length_sd_mm": 0.2, "kinds.core.gap_mm": 1,
+        "kinds.core.gap_sd_mm": 0.2, "press.compactions": [0, 0.02], "run.threads": 1, "glue.compliance_t_mm_per_MPa": [0, 0.0105]}
+
+
 def small():
-    case = strandlab.Case.ready("osb")
-    case.update(SMALL)
-    return case
+    return strandlab.Case.ready("osb").changed(SMALL)
+
+
+def tiny():
+    return strandlab.Case.ready("osb").changed(TINY)
+
+
+def program(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=True).stdout
+
+
+class without:  # noqa: N801  a block of code in which a package is not installed
+    def __init__(self, package):
+        self.package = package
+
+    def __enter__(self):
+        self.before = sys.modules.get(self.package)
+        sys.modules[self.package] = None  # import raises ImportError
+
+    def __exit__(self, *_):
+        del sys.modules[self.package]
+        if self.before is not None:
+            sys.modules[self.package] = self.before
+
+
+def interrupted_after(work, delay_s):
+    """Seconds from Ctrl-C, which comes delay_s after the start of work(), to KeyboardInterrupt; None where work() ended before."""
+    signalled = []
+
+    def interrupt():
+        signalled.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+    timer = threading.Timer(delay_s, interrupt)
+    timer.start()
+    try:
+        work()
+    except KeyboardInterrupt:
+        return time.monotonic() - signalled[0]
+    finally:
+        timer.cancel()
+        timer.join()
+    return None
 
 
 class Cases(unittest.TestCase):
@@ -89,14 +139,16 @@ class Cases(unittest.TestCase):
             self.assertEqual(case.run.seed, 1)
 
     def test_ready_cases_are_those_of_the_program(self):
-        for name in strandlab.ready_cases():
-            printed = subprocess.run([PROGRAM, "init", name], capture_output=True, text=True, check=True).stdout
-            self.assertEqual(strandlab.Case.from_toml(printed), strandlab.Case.ready(name), name)
+        # cases/NAME.toml is what the program prints (tests/cli/ready_cases.py).
+        files = sorted((pathlib.Path(__file__).parents[2] / "cases").glob("*.toml"))
+        self.assertEqual([file.stem for file in files], sorted(strandlab.ready_cases()))
+        for file in files:
+            self.assertEqual(strandlab.Case.read(file), strandlab.Case.ready(file.stem), file.stem)
 
     def test_glue_comes_from_a_table_of_lap_shear_tests(self):
         with tempfile.TemporaryDirectory() as folder:
             table = pathlib.Path(folder, "dls.csv")
-            table.write_text(subprocess.run([PROGRAM, "bondline", "--example"], capture_output=True, text=True, check=True).stdout)
+            table.write_text(strandlab.bondline_example())
             lines = strandlab.bondline(table)
             group, compliance = list(lines.groups["group"])[0], list(lines.groups["compliance_t_mm_per_MPa"])[0]
             lines.write(pathlib.Path(folder, "dls.json"))
@@ -117,7 +169,7 @@ class Runs(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "small.toml")
             file.write_text(small().to_toml())
-            subprocess.run([PROGRAM, "run", file, "-o", f"{folder}/run"], check=True, capture_output=True)
+            program("run", file, "-o", f"{folder}/run")
             run = strandlab.open_run(f"{folder}/run")
             for name in ("moduli", "press"):
                 ours, theirs = getattr(self.result, name), getattr(run, name)
@@ -134,17 +186,42 @@ class Runs(unittest.TestCase):
             self.assertEqual(run.case, small())
             with self.assertRaisesRegex(strandlab.InputError, "no table modul; there are .*moduli"):
                 run.table("modul")
+            with without("pandas"):
+                plain = run.moduli
+            self.assertEqual(type(plain), dict)
+            self.assertEqual((list(plain), list(plain["test"])), (list(run.moduli), list(run.moduli["test"])))
+            np.testing.assert_array_equal(plain["modulus_MPa"], run.moduli["modulus_MPa"])
+
+    def test_a_hot_pressing_has_the_bits_of_the_program(self):
+        hot = strandlab.Case.ready("hot_osb").changed(HOT)
+        ours = strandlab.run(hot)
+        self.assertIn("cured to", " ".join(ours.warnings))  # it was pressed hot
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "hot.toml")
+            file.write_text(hot.to_toml())
+            program("press", file, "-o", f"{folder}/run")
+            theirs = strandlab.open_run(f"{folder}/run").panels
+        self.assertEqual(len(ours.panels), len(theirs))
+        for a, b in zip(ours.panels[-1], theirs[-1], strict=True):
+            for field in a.fields:
+                np.testing.assert_array_equal(a[field], b[field], err_msg=field)
 
     def test_nothing_is_written_in_memory(self):
+        def written():  # bytes that this process has handed to write() so far, to whatever file
+            return int(re.search(r"wchar: (\d+)", pathlib.Path("/proc/self/io").read_text())[1])
+        before = written()
+        strandlab.run(tiny())
+        strandlab.theory(tiny())
+        self.assertEqual(written(), before)
         self.assertEqual(os.listdir("."), self.here)
 
     def test_a_run_in_a_folder_is_the_programs(self):
         with tempfile.TemporaryDirectory() as folder:
-            run = strandlab.run(small(), folder=f"{folder}/run")
+            run = strandlab.run(tiny(), folder=f"{folder}/run")
             self.assertTrue((run.folder / "report.html").is_file())
-            np.testing.assert_array_equal(run.moduli["modulus_MPa"], self.result.moduli["modulus_MPa"])
+            np.testing.assert_array_equal(run.moduli["modulus_MPa"], strandlab.run(tiny()).moduli["modulus_MPa"])
             with self.assertRaisesRegex(strandlab.InputError, "another case"):
-                strandlab.run(small().changed({"run.seed": 2}), folder=f"{folder}/run")
+                strandlab.run(tiny().changed({"run.seed": 2}), folder=f"{folder}/run")
 
     def test_arrays_are_read_only_views_that_outlive_their_panel(self):
         panel = strandlab.form(small()).panel
@@ -152,8 +229,9 @@ class Runs(unittest.TestCase):
         x, F = strand["position_mm"], strand["deformation_gradient"]
         self.assertEqual((x.shape, F.shape), ((len(strand), 2), (len(strand), 2, 2)))
         self.assertEqual(strand["position_mm"].__array_interface__["data"], x.__array_interface__["data"])
-        with self.assertRaises(ValueError):
-            x[0] = 0
+        for array in (x, F, strand.corners_mm(), strand.cells()):
+            with self.assertRaises(ValueError):
+                array[0] = 0
         kept = x.copy()
         del panel, strand
         gc.collect()
@@ -188,7 +266,7 @@ class Runs(unittest.TestCase):
 
     def test_states_and_progress_are_told_and_errors_pass_through(self):
         states, steps = [], []
-        slow = small().changed({"press.speed_m_s": 1})  # long enough to be told of
+        slow = small().changed({"press.speed_m_s": 2})  # long enough to be told of
         strandlab.press(slow, on_progress=lambda step, fraction, detail: steps.append(step), on_state=states.append)
         self.assertEqual([panel.compaction for panel in states], [0, 0.1])
         self.assertEqual(set(steps), {"press"})
@@ -215,17 +293,7 @@ class Runs(unittest.TestCase):
 
     def test_ctrl_c_ends_a_pressing_within_a_second(self):
         case = small().changed({"press.speed_m_s": 0.05, "run.threads": 2})  # minutes long
-        began = time.monotonic()
-        pid = os.getpid()
-        killer = subprocess.Popen([sys.executable, "-c", f"import os, signal, time; time.sleep(1.5); os.kill({pid}, signal.SIGINT)"])
-        signalled = None
-        try:
-            strandlab.press(case)
-        except KeyboardInterrupt:
-            signalled = time.monotonic()
-        killer.wait()
-        self.assertIsNotNone(signalled, "the pressing was over before it was interrupted")
-        self.assertLess(signalled - began, 1.5 + 1 + 2)  # and two seconds for a busy machine to start the killer
+        self.assertLess(interrupted_after(lambda: strandlab.press(case), 0.5), 1)
 
     def test_glue_points_lie_between_their_strands(self):
         panel = self.result.panels[-1]
@@ -241,7 +309,7 @@ class Runs(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "case.toml")
             file.write_text(small().to_toml())
-            printed = subprocess.run([PROGRAM, "theory", file, "--csv", "-"], capture_output=True, text=True, check=True).stdout
+            printed = program("theory", file, "--csv", "-")
             self.assertEqual(len(strandlab.theory(small())["modulus_MPa"]), len(printed.splitlines()) - 1)
 
     def test_a_panel_draws_itself(self):
@@ -250,7 +318,19 @@ class Runs(unittest.TestCase):
         panel = self.result.panels[-1]
         self.assertIn("data:image/png", panel._repr_html_())
         ax = panel.plot("plastic_strain")
-        self.assertEqual(len(ax.collections[0].get_array()), panel.points)
+        np.testing.assert_array_equal(ax.collections[0].get_array(), panel["plastic_strain"])
+        with tempfile.TemporaryDirectory() as folder:
+            panel.to_vtk(f"{folder}/panel.vtu")
+            self.assertIn(f'NumberOfCells="{panel.points}"', pathlib.Path(folder, "panel.vtu").read_bytes()[:2000].decode("latin-1"))
+
+    def test_fields_of_a_panel_are_those_of_its_strands_in_turn(self):
+        panel = self.result.panels[-1]
+        self.assertEqual(set(panel.fields), set(panel.strands[0].fields))
+        self.assertEqual(panel["deformation_gradient"].shape, (panel.points, 2, 2))
+        first, second = panel.strands[:2]
+        np.testing.assert_array_equal(panel["position_mm"][len(first):len(first) + len(second)], second["position_mm"])
+        with self.assertRaisesRegex(KeyError, "plastic_strain"):
+            panel["plastic"]
 
     def test_a_failed_pressing_is_a_run_error_and_a_bad_case_an_input_error(self):
         with self.assertRaises(strandlab.InputError):
@@ -259,6 +339,104 @@ class Runs(unittest.TestCase):
             strandlab.open_run("/nowhere")
         self.assertTrue(issubclass(strandlab.InputError, ValueError))
         self.assertTrue(issubclass(strandlab.RunError, RuntimeError))
+
+
+class Studies(unittest.TestCase):
+    PLAN = {"base": "osb", "replicates": 2, "set": TINY, "axes": {"press.speed_m_s": {"from": 8, "to": 16, "count": 2}},
+            "contrasts": [{"key": "press.speed_m_s", "value": 16, "against": 8}]}
+
+    def test_a_study_is_the_programs(self):
+        told = []
+        with tempfile.TemporaryDirectory() as folder:
+            study = strandlab.study(self.PLAN, f"{folder}/ours", on_progress=lambda *progress: told.append(progress))
+            program("study", "run", study.folder / "plan.toml", "-o", f"{folder}/theirs")
+            for name in ("plan", "results", "summary", "effects", "profiles", "press"):
+                self.assertEqual(*(pathlib.Path(folder, whose, f"{name}.csv").read_bytes() for whose in ("ours", "theirs")), name)
+                self.assertGreater(len(getattr(study, name)), 0)
+            self.assertEqual(len(study.plan["item"]), 4)
+            self.assertEqual(told[-1][0], "study")
+            again = strandlab.study(study.folder / "plan.toml", study.folder)  # nothing is left to do
+            np.testing.assert_array_equal(again.results["modulus_MPa"], strandlab.open_study(study.folder).results["modulus_MPa"])
+            with self.assertRaisesRegex(strandlab.InputError, "no table result; there are .*results"):
+                study.table("result")
+
+    def test_the_base_may_be_a_case(self):
+        with tempfile.TemporaryDirectory() as folder:
+            study = strandlab.study({"base": tiny()}, folder + "/one")
+            np.testing.assert_array_equal(study.results["modulus_MPa"], strandlab.run(tiny()).moduli["modulus_MPa"])
+
+    def test_what_is_wrong_with_a_plan_is_said_here(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaisesRegex(strandlab.InputError, r"plan.toml:4: .*unknown key press.sped; did you mean press"):
+                strandlab.study({"base": "osb", "axes": {"press.sped": [1]}}, f"{folder}/a")
+            with self.assertRaisesRegex(strandlab.InputError, "needs a folder"):
+                strandlab.study(self.PLAN)
+            with self.assertRaisesRegex(strandlab.InputError, "holds no study"):
+                strandlab.open_study(folder)
+            self.assertEqual(os.listdir(folder), [])
+
+    def test_ctrl_c_ends_a_study_and_its_workers_within_a_second(self):
+        with tempfile.TemporaryDirectory() as folder:
+            slow = {key: value for key, value in SMALL.items() if key != "press.speed_m_s"}
+            plan = {"base": "osb", "set": slow, "axes": {"press.speed_m_s": [0.05, 0.06]}}  # minutes long
+            seen = threading.Event()
+            pid, interrupted = os.getpid(), []
+
+            def interrupt():
+                seen.wait(60)
+                interrupted.append(time.monotonic())
+                os.kill(pid, signal.SIGINT)
+            thread = threading.Thread(target=interrupt, daemon=True)
+            thread.start()
+            try:
+                strandlab.study(plan, f"{folder}/study", on_progress=lambda step, *_: seen.set() if step == "study" else None)
+                took = None
+            except KeyboardInterrupt:
+                took = time.monotonic() - interrupted[0]
+            thread.join()
+            self.assertLess(took, 1)
+            time.sleep(0.2)  # the workers are told by the system
+            for process in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+                try:
+                    self.assertNotIn(folder.encode(), process.read_bytes())
+                except OSError:
+                    pass  # it has ended
+
+
+class Packaging(unittest.TestCase):
+    def test_pip_and_cmake_agree(self):
+        import tomllib
+        tree = pathlib.Path(__file__).parents[2]
+        project = tomllib.loads((tree / "pyproject.toml").read_text())
+        version = project["tool"]["scikit-build"]["metadata"]["version"]
+        found = re.search(version["regex"], (tree / version["input"]).read_text())
+        self.assertEqual(found["value"], strandlab.__version__)
+        cmake = (tree / "python" / "CMakeLists.txt").read_text()
+        for target in project["tool"]["scikit-build"]["build"]["targets"]:
+            self.assertIn(f"pybind11_add_module({target} ", cmake)
+        for component in project["tool"]["scikit-build"]["install"]["components"]:
+            self.assertIn(f"COMPONENT {component})", cmake)
+
+
+class Types(unittest.TestCase):
+    def test_the_stubs_name_what_the_module_has(self):
+        stub = ast.parse((pathlib.Path(strandlab.__file__).parent / "_core.pyi").read_text())
+
+        def names(body):
+            for node in body:
+                if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+                    yield node.name
+                elif isinstance(node, ast.AnnAssign):
+                    yield node.target.id
+        core = strandlab._core
+
+        def public(thing):
+            return {name for name in vars(thing) if not name.startswith("_")}
+        self.assertEqual({name for name in names(stub.body) if not name.startswith("_")}, public(core))
+        for node in stub.body:
+            if isinstance(node, ast.ClassDef) and node.name not in ("InputError", "RunError"):
+                ours = {name for name in names(node.body) if not name.startswith("_")}
+                self.assertEqual(ours, public(getattr(core, node.name)), node.name)
 
 
 if __name__ == "__main__":

@@ -50,16 +50,35 @@ const std::vector<double> kKept{1.4410530679463143, 0.47530817187508295, 5149.31
 
 struct Optional {
   const char* program;
+  const char* version;  // arguments that make it print its version
   const char* use;
+  bool used = true;
 };
+// What Python has, in one line: "Python 3.11.2, numpy 1.24.2, no pandas...".
+constexpr const char* kPythonModules = R"(-c 'import importlib.util, platform
+from importlib.metadata import version
+def told(name):
+    if importlib.util.find_spec(name) is None: return "no " + name
+    try: return name + " " + version(name)
+    except Exception: return name
+print("Python", platform.python_version() + ",", *[told(name) + "," for name in ("strandlab", "numpy", "pandas")], told("matplotlib"))')";
 constexpr Optional kOptional[] = {
-    {"gnuplot", "plots of a run as PNG; Debian: gnuplot-nox"},
-    {"ffmpeg", "strandlab movie; Debian: ffmpeg"},
-    {"python3", "strandlab in Python (docs/python.md); Debian: python3"},
-    {"sbatch", "studies on a cluster with Slurm (docs/studies.md)"},
-    {"parallel", "studies by GNU parallel (docs/studies.md); Debian: parallel"},
-    {"paraview", "a look at paraview/panel.pvd of a run; Debian: paraview"},
+    {"gnuplot", "--version", "plots of a run as PNG; Debian: gnuplot-nox"},
+    {"ffmpeg", "-version", "strandlab movie; Debian: ffmpeg"},
+    {"python3", kPythonModules, "strandlab in Python (docs/python.md); Debian: python3"},
+    {"sbatch", "--version", "studies on a cluster with Slurm (docs/studies.md)"},
+    {"parallel", "--version", "studies by GNU parallel (docs/studies.md); Debian: parallel"},
+    {"mpirun", "--version", "not used by this version: a panel is pressed on one machine, a study on many", false},
+    {"paraview", "--version", "a look at paraview/panel.pvd of a run; Debian: paraview"},
 };
+
+Diagnosis diagnosis_of(const Optional& optional) {
+  const auto file = installed(optional.program);
+  if (!file) return {State::kMissing, optional.program, "", optional.use};
+  const auto version = first_line_of(*file, optional.version);
+  return {State::kGood, optional.program, file->string() + (version.empty() ? "" : ", " + version),
+          optional.used ? "" : optional.use};
+}
 
 Diagnosis page() {
   try {
@@ -111,11 +130,7 @@ std::vector<Diagnosis> diagnose() {
   list.push_back({State::kGood, "threads", fmt::format("{}", std::max(1U, std::thread::hardware_concurrency())), ""});
   list.push_back({State::kGood, "free memory", fmt::format("{:.1f} GB", 1e-9 * free_memory_bytes()), ""});
   list.push_back(page());
-  for (const auto& optional : kOptional) {
-    const auto file = installed(optional.program);
-    list.push_back({file ? State::kGood : State::kMissing, optional.program, file ? file->string() : "",
-                    file ? "" : optional.use});
-  }
+  for (const auto& optional : kOptional) list.push_back(diagnosis_of(optional));
   list.push_back(self());
   return list;
 }
