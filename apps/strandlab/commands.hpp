@@ -10,6 +10,7 @@ namespace strandlab::app {
 void add_init(CLI::App& app);
 void add_check(CLI::App& app);
 void add_mat(CLI::App& app);
+void add_form(CLI::App& app);
 void add_press(CLI::App& app);
 void add_test(CLI::App& app);
 void add_run(CLI::App& app);

@@ -39,14 +39,14 @@ void add_press(CLI::App& app) {
 void add_test(CLI::App& app) {
   add_step(app, "test", "measure the moduli of the pressed panel: moduli.csv",
            [](const auto& c, const auto& place, auto& observer) {
-             cases::is_plate(c) ? run::plate(c, place, observer) : void(run::test(c, place, observer));
+             cases::has_plate_mat(c) ? run::plate(c, place, observer) : void(run::test(c, place, observer));
            });
 }
 
 void add_run(CLI::App& app) {
   add_step(app, "run", "form, press and test: the whole journey of a panel",
            [](const auto& c, const auto& place, auto& observer) {
-             cases::is_plate(c) ? run::plate(c, place, observer) : void(run::all(c, place, observer));
+             cases::has_plate_mat(c) ? run::plate(c, place, observer) : void(run::all(c, place, observer));
            });
 }
 

@@ -1,4 +1,4 @@
-"""A mat file in 3D makes the case a plate: tested as it lies, moduli.csv and abd.csv; pressing it is refused."""
+"""A mat file in 3D, or mat.width_mm, makes the case a plate: tested as it lies, moduli.csv and abd.csv; pressing it is refused."""
 
 import csv
 import json
@@ -73,6 +73,31 @@ def cut():
     check(not pathlib.Path("cut/abd.csv").exists(), "no plate stiffness of a cut plate")
 
 
+FORMED = """
+[mat]
+length_mm = 30
+width_mm = 30
+rows = ["surface", "core", "surface"]
+[kinds.surface]
+length_mm = 20
+width_mm = 6
+[kinds.core]
+length_mm = 20
+width_mm = 6
+"""
+
+
+def formed():
+    pathlib.Path("formed.toml").write_text(FORMED, encoding="utf-8")
+    made = strandlab("form", "formed.toml", "-o", "formed_mat")
+    check(made.returncode == DONE and "coverage" in made.stdout, f"form: {made.stderr}")
+    check(len(list(pathlib.Path("formed_mat/pictures").iterdir())) == 3, "a picture of each layer")
+    coverage = [float(row["coverage"]) for row in rows("formed_mat/layers.csv")]
+    check(all(0.3 < value < 0.7 for value in coverage), f"layers of strands that do not overlap cover about a half: {coverage}")
+    check(strandlab("run", "formed.toml", *SETTINGS, "-o", "formed").returncode == DONE, "a formed mat is tested")
+    check(pathlib.Path("formed/mat.json").read_bytes() == pathlib.Path("formed_mat/mat.json").read_bytes(), "run tests the mat that form makes")
+
+
 def refused():
     for settings in (["press.compactions=[0,0.2]"], []):
         sets = [word for setting in settings for word in ("--set", setting)]
@@ -88,5 +113,6 @@ with scratch():
     pathlib.Path("osb.toml").write_text(strandlab("init", "osb").stdout, encoding="utf-8")
     periodic()
     cut()
+    formed()
     refused()
 finish()

@@ -64,13 +64,12 @@ wood::Material find_material(const Case& c, const std::string& name) {
                                near.empty() ? "." : fmt::format("; did you mean \"{}\"?", near), quoted_list(names)));
 }
 
-mat::LayupRow layup_row(const KindSettings& kind) {
+mat::LayupRow layup_row(const KindSettings& kind, const mat::AngleDistribution& own_angles) {
   mat::LayupRow row;
   row.kind = kind.name;
   row.statistics = kind.statistics;
   if (kind.thickness_mm > 0) row.thickness_mm = kind.thickness_mm;
-  if (kind.angle_spread_deg > 0 || kind.angle_sd_deg > 0)
-    row.angles = mat::AngleDistribution{kind.angle_deg, kind.angle_spread_deg, kind.angle_sd_deg};
+  if (own_angles.spread_deg > 0 || own_angles.sd_deg > 0) row.angles = own_angles;
   return row;
 }
 
@@ -99,18 +98,30 @@ void refuse_too_short(const Case& c, const Panel<2>& panel) {
 Case::Case() : kinds{{"surface", "poplar", 0, {150, 20, 15, 4.95}}, {"core", "poplar", 90, {25, 3, 10, 1}}} {
   kinds[0].yield_factor = 0.5;  // hot faces and a warm core, until the heat itself drives the press
   kinds[1].yield_factor = 0.75;
+  plate.width_mm = 0;
   schedule.compactions.clear();
   test.compliance_t_mm_per_MPa = {0, 0.0021, 0.0105, 0.0163, 0.05};
   grid.cell_aspect = 1.5;  // the cheapest that changes no modulus by 1 % (docs/performance.md, resolution)
 }
 
-mat::Layup layup(const Case& c) {
-  mat::Layup result{c.length_mm, c.layer_thickness_mm, {}};
+mat::AngleDistribution angles(const Case& c, const KindSettings& kind) {
+  constexpr double kUsualSd = 25;  // degrees, of strands that a forming machine lays
+  const bool usual = is_plate(c) && kind.angle_spread_deg == 0 && kind.angle_kappa == 0;
+  return {kind.angle_deg, kind.angle_spread_deg, kind.angle_sd_deg.value_or(usual ? kUsualSd : 0), kind.angle_kappa};
+}
+
+std::vector<const KindSettings*> row_kinds(const Case& c) {
+  std::vector<const KindSettings*> kinds;
   for (const auto& text : c.rows) {
     const auto row = parse_row(text);
-    const auto& kind = find_kind(c, row.first, text);
-    result.rows.insert(result.rows.end(), static_cast<std::size_t>(row.second), layup_row(kind));
+    kinds.insert(kinds.end(), static_cast<std::size_t>(row.second), &find_kind(c, row.first, text));
   }
+  return kinds;
+}
+
+mat::Layup layup(const Case& c) {
+  mat::Layup result{c.length_mm, c.layer_thickness_mm, {}};
+  for (const auto* kind : row_kinds(c)) result.rows.push_back(layup_row(*kind, angles(c, *kind)));
   return result;
 }
 
@@ -139,11 +150,11 @@ std::vector<StrandKind> kinds_and_materials(const Case& c) {
 mat::Mat make_mat(const Case& c) {
   const auto& place = c.mat_file.empty() ? c.places.rows : c.places.mat_file;
   try {
-    if (is_plate(c)) {
+    if (has_plate_mat(c)) {
       throw InputError(
           fmt::format("{}: a mat in 3D: strandlab run and test measure it as it lies, with press.compactions = [0]; "
                       "pressing in 3D is not there yet",
-                      c.mat_file));
+                      c.mat_file.empty() ? fmt::format("mat.width_mm = {}", c.plate.width_mm) : c.mat_file));
     }
     if (!c.mat_file.empty()) return mat::read(c.mat_file, kind_names(c));
     const auto rows = layup(c);

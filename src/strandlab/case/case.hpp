@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "strandlab/case/hotpress.hpp"
 #include "strandlab/mat/form.hpp"
+#include "strandlab/mat/plate_layup.hpp"
 #include "strandlab/mpm/engine.hpp"
 #include "strandlab/panel/panel.hpp"
 #include "strandlab/press/press.hpp"
@@ -21,7 +23,9 @@ struct KindSettings {
   std::string material = "poplar";  // built in, or one of [materials]
   double angle_deg = 0;
   mat::StrandStatistics statistics;               // mm
-  double angle_spread_deg = 0, angle_sd_deg = 0;  // each strand's own angle, mat::AngleDistribution
+  mat::SizeStatistics sizes = {};                 // of whole strands, 3D
+  double angle_spread_deg = 0, angle_kappa = 0;   // each strand's own angle, angles()
+  std::optional<double> angle_sd_deg = {};        // none: 0; in 3D 25 where the two others are 0
   double thickness_mm = 0;                        // 0: layer_thickness_mm of the case
   double yield_factor = 1, stiffness_factor = 1;  // softening in the press, StrandKind
   wood::Law law = wood::Law::kCrushing;
@@ -57,6 +61,7 @@ struct Case {
   double length_mm = 100;
   double layer_thickness_mm = 0.8;
   std::vector<std::string> rows{"surface*5", "core*10", "surface*5"};  // bottom to top, "kind" or "kind*count"
+  mat::PlateLayup plate;                                               // 3D: forming and width; a section has none
   std::string mat_file;                                                // absolute path; empty: random forming
   wood::OffAxis off_axis = wood::OffAxis::kExact;
   std::vector<KindSettings> kinds;
@@ -96,6 +101,16 @@ Case ready_case(const std::string& name);
 // What it is: lines of text, the first a title.
 std::string ready_case_title(const std::string& name);
 
+// A case with mat.width_mm: its keys are those of a plate, in three dimensions. What else this header has for mats and
+// panels is for sections; plate.hpp has that of plates.
+inline bool is_plate(const Case& c) {
+  return c.plate.width_mm > 0;
+}
+// How the angles of the strands of a kind are distributed.
+mat::AngleDistribution angles(const Case& c, const KindSettings& kind);
+// The kind of each row, bottom to top. Throws InputError for a row that names no kind.
+std::vector<const KindSettings*> row_kinds(const Case& c);
+
 // Rows of the layup with the statistics, thickness and angles of their kinds. Throws InputError for a row that names no
 // kind.
 mat::Layup layup(const Case& c);
@@ -104,8 +119,8 @@ std::vector<StrandKind> strand_kinds(const Case& c);
 // The same and a kind for each of the case's materials: a strand of a mat file may name any of them, also one that no
 // kind uses.
 std::vector<StrandKind> kinds_and_materials(const Case& c);
-// The mat of a case: read from its mat file, else formed with its seed. Throws InputError for a bad mat file, and for
-// rows that would make a panel beyond the memory that is free.
+// The mat of a case: read from its mat file, else formed with its seed. Throws InputError for a bad mat file, for rows
+// that would make a panel beyond the memory that is free, and for a plate's (plate.hpp).
 mat::Mat make_mat(const Case& c);
 // Its weight and what it is made of.
 Weight weigh(const Case& c, const mat::Mat& mat);

@@ -94,6 +94,7 @@ class Table {
     keys_.insert(place_of(path) + 1, more.begin(), more.end());
   }
   Key& at(const std::string& path) { return *place_of(path); }
+  bool has(const std::string& path) { return place_of(path) != keys_.end(); }
   std::vector<Key> take() { return std::move(keys_); }
 
  private:
@@ -146,8 +147,43 @@ Key species_key() {
   return key;
 }
 
+std::vector<Key> of_dimensions(int dimensions, std::vector<Key> list) {
+  for (auto& key : list) key.dimensions = dimensions;
+  return list;
+}
+
+// One key for a section and another for a plate.
+void join(Key& key, const Key& of_plate) {
+  key.get = [two = key.get, three = of_plate.get](const Case& c, const std::string& name) {
+    return is_plate(c) ? three(c, name) : two(c, name);
+  };
+  key.set = [two = key.set, three = of_plate.set](Case& c, const std::string& name, const Value& value) {
+    is_plate(c) ? three(c, name, value) : two(c, name, value);
+  };
+}
+
+// Its value is that of the distribution: what is not given depends on the other keys.
+Key angle_sd_key() {
+  Key key;
+  key.path = "kinds.*.angle_sd_deg";
+  key.unit = "degrees";
+  key.range = {.lo = 0, .hi = 90};
+  key.help =
+      "each strand has its own angle, normal about angle_deg with this standard deviation; in place of "
+      "angle_spread_deg; 3D: 25 unless one of the others is given";
+  key.get = [](const Case& c, const std::string& name) { return Value(angles(c, kind_named(c, name)).sd_deg); };
+  key.set = [](Case& c, const std::string& name, const Value& value) {
+    kind_named(c, name).angle_sd_deg = std::get<double>(value);
+  };
+  return key;
+}
+
 void add_mat_and_kinds(Table& t) {
   t.add(keys_of_case("mat", mat_settings()));
+  t.at("mat.offaxis").dimensions = 2;
+  t.insert_after("mat.length_mm",
+                 of_dimensions(3, keys_of_part(
+                                      "mat", mat::plate_options(), [](auto& c) -> auto& { return c.plate; })));
   t.at("mat.file").names_file = true;
   t.add(keys_of(
       "kinds.*", kind_settings(), [](auto& c, const std::string& n) -> auto& { return kind_named(c, n); }));
@@ -156,6 +192,18 @@ void add_mat_and_kinds(Table& t) {
                  keys_of(
                      "kinds.*", mat::statistics_options(),
                      [](auto& c, const std::string& n) -> auto& { return kind_named(c, n).statistics; }));
+  t.at("kinds.*.gap_mm").dimensions = t.at("kinds.*.gap_sd_mm").dimensions = 2;
+  for (const auto& key : of_dimensions(3, keys_of(
+                                              "kinds.*", mat::size_options(), [](auto&c, const std::string&n) -> auto& {
+                                                return kind_named(c, n).sizes;
+                                              }))) {
+    if (t.has(key.path))
+      join(t.at(key.path), key);
+    else
+      t.insert_after("kinds.*.gap_sd_mm", {key});
+  }
+  t.at("kinds.*.angle_kappa").dimensions = 3;
+  t.insert_after("kinds.*.angle_spread_deg", {angle_sd_key()});
 }
 
 void add_materials(Table& t) {
@@ -286,6 +334,10 @@ const std::vector<Key>& keys() {
     return t.take();
   }();
   return table;
+}
+
+bool is_foreign(const Key& key, const Case& c) {
+  return key.dimensions == (is_plate(c) ? 2 : 3);
 }
 
 std::string section_of(const Key& key) {

@@ -19,6 +19,7 @@ struct Key {
   std::string help;
   std::function<std::vector<std::string>(const Case&)> choices;  // of texts; empty: any text
   bool names_file = false;                                       // a text: relative ones count from the case file
+  int dimensions = 0;           // 2 or 3: a key of the cases of sections or of plates only; 0: of both
   bool changes_results = true;  // false: runs that differ in this key alone give the same bits
   // An empty list stands for a key that is not given, and is not written.
   // `name` is what stands for the * of the path, "" where there is none. set() expects a value that passed the checks.
@@ -33,6 +34,9 @@ struct Section {
 
 const std::vector<Section>& sections();
 const std::vector<Key>& keys();  // by section
+
+// A key that says nothing of this case, since it is of sections or of plates only.
+bool is_foreign(const Key& key, const Case& c);
 
 // The section of a key ("kinds.*" of "kinds.*.angle_deg") and its own name ("angle_deg").
 std::string section_of(const Key& key);

@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
+#include "strandlab/case/plate_mat.hpp"
 #include "strandlab/core/error.hpp"
 
 namespace strandlab::cases {
 namespace {
 
 std::string opening(const Case& c) {
+  if (c.mat_file.empty()) return c.places.rows.empty() ? c.name : c.places.rows;
   return c.places.mat_file.empty() ? c.mat_file : fmt::format("{}: {}", c.places.mat_file, c.mat_file);
 }
 
@@ -22,15 +22,7 @@ void refuse_pressing(const Case& c) {
       opening(c)));
 }
 
-std::vector<mat::RoleAngle> roles_of(const Case& c) {
-  std::vector<mat::RoleAngle> roles(c.kinds.size());
-  std::transform(c.kinds.begin(), c.kinds.end(), roles.begin(), [](const KindSettings& kind) {
-    return mat::RoleAngle{kind.name, kind.angle_deg};
-  });
-  return roles;
-}
-
-// Of a message about the mat: which file it is in.
+// Of a message about the mat: where it is from.
 template <class Make>
 auto about_plate(const Case& c, const Make& make) {
   try {
@@ -42,13 +34,13 @@ auto about_plate(const Case& c, const Make& make) {
 
 }  // namespace
 
-bool is_plate(const Case& c) {
-  return !c.mat_file.empty() && mat::dimensions(c.mat_file) == 3;
+bool has_plate_mat(const Case& c) {
+  return is_plate(c) || (!c.mat_file.empty() && mat::dimensions(c.mat_file) == 3);
 }
 
 mat::PlateMat make_plate_mat(const Case& c) {
   refuse_pressing(c);
-  return mat::read_plate(c.mat_file, roles_of(c));
+  return make_plate(c).mat;
 }
 
 Panel<3> make_panel(const Case& c, const mat::PlateMat& mat) {

@@ -1,4 +1,4 @@
-// Cases of plates: a mat file in three dimensions makes one.
+// Cases whose mats are plates: of mat.width_mm, or with a mat file in three dimensions.
 #pragma once
 
 #include "strandlab/case/case.hpp"
@@ -7,10 +7,12 @@
 
 namespace strandlab::cases {
 
-// Whether the case's mat file holds a plate's mat. Throws InputError for a file that is no mat file.
-bool is_plate(const Case& c);
+// Whether the case's mat is a plate's: one that is formed by the keys of plates, or a mat file in 3D, which a section's
+// keys may stand beside. Throws InputError for a file that is no mat file.
+bool has_plate_mat(const Case& c);
 
-// The mat of such a case. Throws InputError for a bad mat file, and for states other than the mat as it lies.
+// The mat of such a case, from its file or formed. Throws InputError as make_plate() (plate_mat.hpp), and for states
+// other than the mat as it lies.
 mat::PlateMat make_plate_mat(const Case& c);
 // Its panel, with material points as coarse as the elements of its tests. Throws InputError as make_panel() of the room
 // panel.

@@ -15,6 +15,7 @@
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/case/case.hpp"
 #include "strandlab/case/keys.hpp"
+#include "strandlab/case/plate_mat.hpp"
 #include "strandlab/case/write.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
@@ -28,6 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Path = std::vector<std::string>;  // of a key, its parts between dots
+
+const Path kPlateWidth{"mat", "width_mm"};  // the key that makes a case one of a plate
 
 // A value or a section as it was given, and where.
 struct Given {
@@ -424,10 +427,32 @@ std::string opening_of_file(const Given& given, const Key& key) {
                                decimal ? fmt::format("; numbers have a decimal point: {}", *decimal) : ""));
 }
 
+// A key of sections in the case of a plate, or the other way round.
+[[noreturn]] void throw_foreign(const Given& given, const Case& c) {
+  const auto name = name_of(given.path);
+  if (!is_plate(c))
+    throw InputError(
+        fmt::format("{}: {} belongs to the case of a plate (3D), which mat.width_mm makes; this one is of "
+                    "a section",
+                    given.where, name));
+  if (given.path[0] != "kinds")
+    throw InputError(
+        fmt::format("{}: {} belongs to the case of a section; mat.width_mm = {} makes this one of a plate "
+                    "(3D)",
+                    given.where, name, c.plate.width_mm));
+  throw InputError(
+      fmt::format("{}: {}: mat.width_mm = {} makes this the case of a plate (3D), where gaps follow from "
+                  "forming, and length_mm is the length of a whole strand (150 mm unless given), not what "
+                  "a section shows of it (25 mm, its width, of a core strand): leave out gap_mm and "
+                  "gap_sd_mm, and give length_mm and width_mm of whole strands",
+                  given.where, name, c.plate.width_mm));
+}
+
 void apply(Case& c, const Given& given) {
   const auto* key = find_key(given.path);
   const auto name = instance_of(given.path);
   const auto opening = opening_of(given, *key);
+  if (is_foreign(*key, c) && given.path != kPlateWidth) throw_foreign(given, c);
   const auto like = key->get(c, name);
   const auto value = convert(*given.node, like);
   if (!value) throw_wrong_type(given, like, opening);
@@ -507,12 +532,20 @@ std::string where_of(const std::vector<Given>& given, const std::string& source,
   return where;
 }
 
-void check_kind(const KindSettings& kind, const std::vector<Given>& given, const std::string& source) {
+void check_kind(const Case& c, const KindSettings& kind, const std::vector<Given>& given, const std::string& source) {
   const auto& s = kind.statistics;
   const auto fail = [&](const char* key, const std::string& message) {
     throw InputError(fmt::format("{}: kinds.{}.{} {}", where_of(given, source, {"kinds", kind.name, key}),
                                  shortened(kind.name), key, message));
   };
+  const auto a = angles(c, kind);
+  if ((a.spread_deg > 0) + (a.sd_deg > 0) + (a.kappa > 0) > 1) {
+    fail("angle_sd_deg",
+         fmt::format("= {}, angle_spread_deg = {}{}: strands have one distribution of angles; give one "
+                     "of these keys",
+                     a.sd_deg, a.spread_deg, is_plate(c) ? fmt::format(" and angle_kappa = {}", a.kappa) : ""));
+  }
+  if (is_plate(c)) return;
   if (s.length_mm == 0 && (s.length_sd_mm > 0 || s.gap_mm > 0 || s.gap_sd_mm > 0)) {
     fail("length_mm",
          fmt::format("= 0 means that one strand fills the row: length_sd_mm, gap_mm and gap_sd_mm must be 0 too, not "
@@ -529,11 +562,6 @@ void check_kind(const KindSettings& kind, const std::vector<Given>& given, const
     fail("gap_sd_mm",
          fmt::format("= {} mm: must not exceed the mean, gap_mm = {}: the truncated normal distribution degenerates",
                      s.gap_sd_mm, s.gap_mm));
-  }
-  if (kind.angle_spread_deg > 0 && kind.angle_sd_deg > 0) {
-    fail("angle_sd_deg", fmt::format("= {} and angle_spread_deg = {}: strands have one distribution of angles, normal "
-                                     "or uniform; give one of the two",
-                                     kind.angle_sd_deg, kind.angle_spread_deg));
   }
 }
 
@@ -583,7 +611,7 @@ void refuse_unused_kinds(const Case& c, const mat::Layup& layup, const std::vect
 }
 
 void check_case(const Case& c, const std::vector<Given>& given, const std::string& source) {
-  for (const auto& kind : c.kinds) check_kind(kind, given, source);
+  for (const auto& kind : c.kinds) check_kind(c, kind, given, source);
   for (const auto& settings : c.materials) {
     const auto& name = settings.material.name;
     try {
@@ -616,12 +644,20 @@ void check_case(const Case& c, const std::vector<Given>& given, const std::strin
   } catch (const InputError& e) {
     throw InputError(fmt::format("{}: mat.rows: {}", where_of(given, source, {"mat", "rows"}), e.what()));
   }
-  if (c.mat_file.empty()) refuse_unused_kinds(c, rows, given, source);
+  if (!c.mat_file.empty()) return;
+  refuse_unused_kinds(c, rows, given, source);
+  if (!is_plate(c)) return;
+  try {
+    mat::check(plate_layup(c));
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}: {}", where_of(given, source, kPlateWidth), e.what()));
+  }
 }
 
-// Base materials before their constants, E_L before the species whose ratios it scales, those before the constants they
-// give, materials before the kinds that name them.
+// The width of a plate before what depends on it. Base materials before their constants, E_L before the species whose
+// ratios it scales, those before the constants they give, materials before the kinds that name them.
 int order_of(const Given& given) {
+  if (given.path == kPlateWidth) return 0;
   if (given.path[0] != "materials") return 4;
   const auto& key = given.path.back();
   if (key == "base") return 0;

@@ -96,10 +96,10 @@ std::vector<Declaration<KindSettings>> kind_settings() {
               &K::angle_deg),
       declare("angle_spread_deg", "degrees", {.lo = 0, .hi = 90},
               "each strand has its own angle, uniform within angle_deg +- this; 90: any angle", &K::angle_spread_deg),
-      declare("angle_sd_deg", "degrees", {.lo = 0, .hi = 90},
-              "each strand has its own angle, normal about angle_deg with this standard deviation; in place of "
-              "angle_spread_deg",
-              &K::angle_sd_deg),
+      declare("angle_kappa", "", {.lo = 0, .hi = mat::kMostConcentrated},
+              "3D: each strand has its own angle, von Mises in the doubled angle, density exp(kappa cos 2(angle - "
+              "angle_deg)); in place of angle_sd_deg",
+              &K::angle_kappa),
       declare("thickness_mm", "mm", kSizeOrZero, "thickness of the strands; 0: mat.layer_thickness_mm",
               &K::thickness_mm),
       declare("yield_factor", "", kSoftening,

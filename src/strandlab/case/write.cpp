@@ -93,6 +93,7 @@ std::string resolved_text(const Case& c) {
     for (const auto& name : instances(c, section.path)) {
       text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", with_name(section.path, name));
       for_each_key(section.path, [&](const Key& key) {
+        if (is_foreign(key, c)) return;
         const auto value = key.get(c, name);
         if (is_given(value)) text += fmt::format("{} = {}\n", name_of(key), to_toml(value));
       });
@@ -111,6 +112,7 @@ std::string commented_text(const Case& c, const std::string& title) {
     for (const auto& name : names) {
       text += fmt::format("[{}]  # {}\n", with_name(section.path, name), section.help);
       for_each_key(section.path, [&](const Key& key) {
+        if (is_foreign(key, c)) return;
         const auto value = key.get(c, name);
         text += fmt::format("{}{} = {}  # {}\n", is_given(value) ? "" : "# ", name_of(key), to_toml(value),
                             meaning(key, c));
@@ -153,7 +155,9 @@ std::vector<std::string> identity(const Case& c, Step last) {
   std::vector<std::string> lines;
   for (const auto& key : keys()) {
     const auto section = section_of(key);
-    if (!(key.changes_results || (of_cycle(section) && presses_hot(c))) || step_of(section) > last) continue;
+    if (!(key.changes_results || (of_cycle(section) && presses_hot(c))) || step_of(section) > last ||
+        is_foreign(key, c))
+      continue;
     for (const auto& name : instances(c, section)) {
       const auto value = key.get(c, name);
       if (is_given(value)) lines.push_back(fmt::format("{} = {}", with_name(key.path, name), to_toml(value)));

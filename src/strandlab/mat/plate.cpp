@@ -18,8 +18,6 @@ namespace {
 const Keys kPlateKeys{"dim", "length_mm", "width_mm", "layer_thickness_mm", "sides", "stack", "drape_slopes", "layers"};
 const Keys kPlateLayerKeys{"role", "thickness_mm", "strands"};
 const Keys kPlateStrandKeys{"cx", "cy", "length", "width", "angle_deg", "material"};
-const Keys kSides{"periodic", "cut"};  // in the order of PlateSides
-const Keys kStacks{"layers", "draped"};
 
 constexpr double kLargestAngle = 1e6;  // degrees: an angle keeps its six decimals
 constexpr double kSteepest = 10;       // slope of a draped strand
@@ -84,8 +82,9 @@ PlateMat plate_from(const Json& json, const std::string& source) {
   mat.length_mm = on_raster(length("length_mm"));
   mat.width_mm = on_raster(length("width_mm"));
   mat.layer_thickness_mm = length("layer_thickness_mm");
-  if (json.contains("sides")) mat.sides = static_cast<PlateSides>(choice(json["sides"], "sides", kSides, source));
-  if (json.contains("stack")) mat.stack = static_cast<Stack>(choice(json["stack"], "stack", kStacks, source));
+  if (json.contains("sides"))
+    mat.sides = static_cast<PlateSides>(choice(json["sides"], "sides", plate_side_names(), source));
+  if (json.contains("stack")) mat.stack = static_cast<Stack>(choice(json["stack"], "stack", stack_names(), source));
   if (json.contains("drape_slopes")) {
     if (mat.stack != Stack::kDraped) reject(source, "drape_slopes belongs to a mat with \"stack\":\"draped\"");
     mat.drape_slopes = slopes_from(json["drape_slopes"], source);
@@ -205,6 +204,16 @@ std::string plate_layer_text(const PlateLayer& layer) {
 
 }  // namespace
 
+const std::vector<std::string>& plate_side_names() {
+  static const std::vector<std::string> names{"periodic", "cut"};
+  return names;
+}
+
+const std::vector<std::string>& stack_names() {
+  static const std::vector<std::string> names{"layers", "draped"};
+  return names;
+}
+
 double PlateMat::thickness_of(std::size_t layer) const {
   return mat::thickness_of(*this, layer);
 }
@@ -250,7 +259,7 @@ std::string to_text(const PlateMat& mat) {
   auto out = fmt::format(
       "{{\"dim\":3, \"length_mm\":{}, \"width_mm\":{}, \"layer_thickness_mm\":{}, \"sides\":\"{}\", \"stack\":\"{}\"",
       coordinate(mat.length_mm), coordinate(mat.width_mm), Json(mat.layer_thickness_mm).dump(),
-      kSides[static_cast<std::size_t>(mat.sides)], kStacks[static_cast<std::size_t>(mat.stack)]);
+      plate_side_names()[static_cast<std::size_t>(mat.sides)], stack_names()[static_cast<std::size_t>(mat.stack)]);
   if (draped) out += ", \"drape_slopes\":" + Json(mat.drape_slopes).dump();
   out += members(mat.extra, ", ") + ",\n \"layers\":[\n";
   for (std::size_t i = 0; i < mat.layers.size(); ++i) {

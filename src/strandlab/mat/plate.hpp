@@ -37,6 +37,9 @@ enum class PlateSides { kPeriodic, kCut };
 // How strands lie upon each other: in flat layers of strands that do not overlap, or each on all that were laid before,
 // in the order of the file, with limited slopes.
 enum class Stack { kLayers, kDraped };
+// Their names in files and cases, in the order of their values.
+const std::vector<std::string>& plate_side_names();  // "periodic", "cut"
+const std::vector<std::string>& stack_names();       // "layers", "draped"
 
 struct PlateMat {
   double length_mm = 0, width_mm = 0;  // window along x and y

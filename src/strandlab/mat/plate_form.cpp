@@ -80,7 +80,7 @@ FormedPlate form(const PlateLayup& layup, std::uint64_t seed) {
   mat.layer_thickness_mm = layup.layer_thickness_mm;
   mat.sides = layup.sides;
   mat.stack = layup.stack;
-  mat.drape_slopes = layup.drape_slopes;
+  mat.drape_slopes = {layup.drape_slopes[0], layup.drape_slopes[1]};
   const bool draped = layup.stack == Stack::kDraped;
   for (std::size_t i = 0; i < layup.rows.size();) {
     const auto& row = layup.rows[i];

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "strandlab/core/error.hpp"
@@ -91,6 +92,22 @@ void check_plate_row(const std::string& where, const PlateLayup& layup, const Pl
   }
 }
 
+// As many strands as would cover the window once, fines among them, and of a draped mat in all its rows.
+void check_number(const PlateLayup& layup) {
+  double strands = 0;
+  for (const auto& row : layup.rows) {
+    double least = row.sizes.length_mm * row.sizes.width_mm;
+    for (const auto& fines : row.fines) least = std::min(least, fines.sizes.length_mm * fines.sizes.width_mm);
+    const double of_row = layup.length_mm * layup.width_mm / least;
+    strands = layup.stack == Stack::kDraped ? strands + of_row : std::max(strands, of_row);
+  }
+  if (strands <= kMostStrands) return;
+  refuse("layup", fmt::format("a window of {} x {} mm would take about {:.3g} strands{}, more than {}; take a smaller "
+                              "window or larger strands",
+                              layup.length_mm, layup.width_mm, strands, layup.stack == Stack::kDraped ? "" : " a layer",
+                              kMostStrands));
+}
+
 }  // namespace
 
 void check(const PlateLayup& layup) {
@@ -104,9 +121,13 @@ void check(const PlateLayup& layup) {
     refuse("layup", fmt::format("rsa_failures = {} must be 1 or more", options.rsa_failures));
   if (layup.stack == Stack::kDraped && layup.sides == PlateSides::kCut)
     refuse("layup", "a draped mat has periodic sides");
+  if (layup.drape_slopes.size() != 2)
+    refuse("layup", fmt::format("drape_slopes has {} numbers; it has two, along and across a strand",
+                                layup.drape_slopes.size()));
   if (layup.rows.empty()) refuse("layup", "no rows; a mat has at least one");
   for (std::size_t i = 0; i < layup.rows.size(); ++i)
     check_plate_row(fmt::format("layup: row {} (\"{}\")", i + 1, layup.rows[i].kind), layup, layup.rows[i]);
+  check_number(layup);
 }
 
 }  // namespace strandlab::mat

@@ -1,7 +1,6 @@
 // What a random mat of a plate is formed from.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,19 +37,21 @@ struct SequentialOptions {
   bool keep_angle = false;       // a strand that finds no place is tried elsewhere, in place of another strand
 };
 
+inline constexpr double kMostStrands = 30000;  // of a layer, each of which is tried against all others; of a draped mat
+
 struct PlateLayup {
   double length_mm = 254, width_mm = 254;
   double layer_thickness_mm = 0.8;
   PlateSides sides = PlateSides::kPeriodic;
   Stack stack = Stack::kLayers;
-  std::array<double, 2> drape_slopes{0.1, 0.2};
+  std::vector<double> drape_slopes{0.1, 0.2};  // along and across a strand
   SequentialOptions sequential;
   std::vector<PlateRow> rows;  // bottom to top
 };
 
 // Throws InputError (row, counted from 1, what is wrong): a size that is not positive, a standard deviation above its
 // mean, a strand that meets its own image in this window (with the least window), shares of more than the whole, turned
-// strands in a cut mat.
+// strands in a cut mat, more than kMostStrands strands.
 void check(const PlateLayup& layup);
 
 }  // namespace strandlab::mat

@@ -79,7 +79,7 @@ Json describe(const cases::Case& c, const Json& record) {
                      {"material", kind.material.name},
                      {"angle_deg", kind.angle_deg},
                      {"angle_spread_deg", c.kinds[i].angle_spread_deg},
-                     {"angle_sd_deg", c.kinds[i].angle_sd_deg},
+                     {"angle_sd_deg", cases::angles(c, c.kinds[i]).sd_deg},
                      {"yield_factor", kind.yield_factor},
                      {"stiffness_factor", kind.stiffness_factor}});
   }

@@ -56,9 +56,9 @@ bool measures_states(const Key& key) {
 // Every key can be set in a file and reads back, so no key of the table is dead or bound to another's member.
 TEST(CaseRead, EveryKeyIsStored) {
   for (const auto& sample : samples()) {
-    const Case c = case_from_text(sample.section + "\n" + sample.key + " = " + sample.value, "panel.toml");
+    const Case c = case_from_text(sample.section + "\n" + sample.key + " = " + sample.value, "panel.toml", sample.base);
     EXPECT_EQ(to_toml(sample.entry->get(c, sample.name)), sample.value) << sample.entry->path;
-    const Case overridden = case_from_text("", "panel.toml", {sample.dotted + "=" + sample.value});
+    const Case overridden = case_from_text("", "panel.toml", assignments(sample));
     EXPECT_EQ(to_toml(sample.entry->get(overridden, sample.name)), sample.value) << sample.entry->path;
     const auto own_name = name_of(*sample.entry);
     if (own_name == "base" || own_name == "species") continue;  // they set the constants
@@ -297,7 +297,11 @@ TEST(CaseRead, BadInputIsAnsweredByFileLineKeyGivenAndAllowed) {
       {"[kinds.core]\nangle_spread_deg = 100", {"kinds.core.angle_spread_deg = 100 degrees", "from 0 to 90"}},
       {"[kinds.core]\nangle_sd_deg = 91", {"kinds.core.angle_sd_deg = 91 degrees", "from 0 to 90"}},
       {"[kinds.core]\nangle_sd_deg = 25\nangle_spread_deg = 10",
-       {"panel.toml:2: kinds.core.angle_sd_deg = 25", "angle_spread_deg = 10", "give one of the two"}},
+       {"panel.toml:2: kinds.core.angle_sd_deg = 25", "angle_spread_deg = 10:", "give one of these keys"}},
+      {"[mat]\nforming = \"draped\"", {"panel.toml:2: mat.forming belongs to the case of a plate (3D)"}},
+      {"[mat]\nwidth_mm = 254\nlength_mm = 254\n[kinds.core]\nlength_mm = 25\ngap_mm = 10",
+       {"panel.toml:6: kinds.core.gap_mm", "25 mm, its width, of a core strand", "leave out gap_mm"}},
+      {"[mat]\nwidth_mm = 60", {"panel.toml:2", "meets its own image in a window of 100 x 60 mm"}},
       {"[kinds.core]\nyield_factor = 0", {"kinds.core.yield_factor = 0", "greater than 0 and at most 1"}},
       {"[kinds.core]\nstiffness_factor = 2", {"kinds.core.stiffness_factor = 2", "greater than 0 and at most 1"}},
       {"[materials.m]\nspecies = \"douglas fir\"",

@@ -11,16 +11,24 @@ namespace strandlab::cases {
 
 struct Sample {
   const Key* entry = nullptr;
-  std::string section;  // "[kinds.surface]"
-  std::string key;      // "angle_deg"
-  std::string dotted;   // "kinds.surface.angle_deg"
-  std::string name;     // "surface"
-  std::string value;    // as TOML
+  std::string section;                 // "[kinds.surface]"
+  std::string key;                     // "angle_deg"
+  std::string dotted;                  // "kinds.surface.angle_deg"
+  std::string name;                    // "surface"
+  std::string value;                   // as TOML
+  std::vector<std::string> base = {};  // overrides that make the case one of a plate, where the key is of such only
 };
+
+// Its own assignment after those that make the case what it has to be.
+inline std::vector<std::string> assignments(const Sample& sample) {
+  auto list = sample.base;
+  list.push_back(sample.dotted + "=" + sample.value);
+  return list;
+}
 
 // A case with the section of the sample and nothing set in it.
 inline Case plain_case(const Sample& sample) {
-  return case_from_text(sample.section, "sample");
+  return case_from_text(sample.section, "sample", sample.base);
 }
 
 inline std::string other_value(const Key& key, const Case& c, const std::string& name) {
@@ -29,6 +37,7 @@ inline std::string other_value(const Key& key, const Case& c, const std::string&
   if (key.path == "glue.from_bondline") return "\"/data/dls.json\"";
   if (key.path == "glue.group") return "\"PF-25\"";
   if (key.path == "glue.groups") return "[\"PF-25\", \"PF-1\"]";
+  if (key.path == "mat.width_mm") return "290";
   if (key.path == "mat.rows") return "[\"core*3\"]";
   if (key.path == "hotpress.schedule") return "[\"close to 12 mm in 25 s\"]";
   if (key.path == "hotpress.log.file") return "\"/data/plc.csv\"";
@@ -63,6 +72,9 @@ inline std::vector<Sample> samples() {
     const auto title = section.substr(0, section.find(".*")) + (s.name.empty() ? "" : "." + s.name);
     s.section = "[" + title + "]";
     s.dotted = title + "." + s.key;
+    if (key.dimensions == 3)
+      s.base = {"mat.length_mm=300", "mat.width_mm=300", "kinds.surface.angle_sd_deg=0", "kinds.core.angle_sd_deg=0"};
+    if (key.path == "mat.width_mm") s.base = {"mat.length_mm=300"};
     const auto c = plain_case(s);
     s.value = other_value(key, c, s.name);
     list.push_back(s);

@@ -176,7 +176,7 @@ TEST(FormPlate, DrapedMatsHaveAsManyStrandsAsTheirRowsSay) {
   const auto& mat = formed.mat;
   ASSERT_EQ(mat.layers.size(), 3U);
   EXPECT_EQ(mat.stack, Stack::kDraped);
-  EXPECT_EQ(mat.drape_slopes, layup.drape_slopes);
+  EXPECT_EQ(mat.drape_slopes, (std::array<double, 2>{0.05, 0.3}));
   EXPECT_EQ(mat.layers[1].role, "core");
   EXPECT_EQ(mat.layers[0].strands.size(), 34U);  // 2 x 254^2/3750 = 34.4
   EXPECT_EQ(mat.layers[1].strands.size(), 52U);  // 51.6
@@ -283,6 +283,10 @@ INSTANTIATE_TEST_SUITE_P(
                         l.rows[0].fines = {{{9, 0, 3, 0}, {}}};
                       },
                       {"row 1", "need a share by mass"}},
+        BadPlateLayup{"OneSlope", [](PlateLayup& l) { l.drape_slopes = {0.1}; }, {"drape_slopes has 1 numbers"}},
+        BadPlateLayup{"ManyStrands",
+                      [](PlateLayup& l) { l.length_mm = l.width_mm = 5000; },
+                      {"about 7.81e+04 strands a layer, more than 30000"}},
         BadPlateLayup{"NoRows", [](PlateLayup& l) { l.rows.clear(); }, {"no rows"}},
         BadPlateLayup{"NamelessKind", [](PlateLayup& l) { l.rows[0].kind = ""; }, {"row 1", "no name"}}),
     [](const auto& tested) { return tested.param.name; });
