@@ -67,8 +67,8 @@ std::string layup_in_words(const std::vector<std::string>& rows) {
 std::string grain(const cases::KindSettings& kind) {
   if (kind.angle_spread_deg >= 90) return "at any angle";
   if (kind.angle_spread_deg > 0) return fmt::format("at {:g}° ± {:g}°", kind.angle_deg, kind.angle_spread_deg);
-  if (kind.angle_sd_deg > 0)
-    return fmt::format("at {:g}° with a standard deviation of {:g}°", kind.angle_deg, kind.angle_sd_deg);
+  if (const double sd = kind.angle_sd_deg.value_or(0); sd > 0)
+    return fmt::format("at {:g}° with a standard deviation of {:g}°", kind.angle_deg, sd);
   if (kind.angle_deg == 0) return "along the panel";
   return std::abs(kind.angle_deg) == 90 ? "across the panel" : fmt::format("at {:g}°", kind.angle_deg);
 }

@@ -37,6 +37,9 @@ inline std::string other_value(const Key& key, const Case& c, const std::string&
   if (key.path == "glue.from_bondline") return "\"/data/dls.json\"";
   if (key.path == "glue.group") return "\"PF-25\"";
   if (key.path == "glue.groups") return "[\"PF-25\", \"PF-1\"]";
+  if (key.path == "glue.coverage_classes") return "[0.02, 0.5, 1]";
+  if (key.path == "glue.coverage_compliances_mm_per_MPa") return "[0.02, 0.01, 0.005]";
+  if (key.path == "hotpress.resin.face_kinds") return "[\"surface\"]";
   if (key.path == "mat.width_mm") return "290";
   if (key.path == "mat.rows") return "[\"core*3\"]";
   if (key.path == "hotpress.schedule") return "[\"close to 12 mm in 25 s\"]";
