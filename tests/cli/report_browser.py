@@ -8,6 +8,26 @@ import subprocess
 from program import DONE, SMALL_CASE, SOURCE, check, finish, scratch, strandlab
 from report import HOSTILE, data_of
 
+# Two rows of 4 mm, pressed hot in seconds.
+HOT_CASE = """[mat]
+length_mm = 4
+rows = ["surface", "core"]
+[kinds.surface]
+length_mm = 0
+length_sd_mm = 0
+gap_mm = 0
+gap_sd_mm = 0
+[kinds.core]
+length_mm = 0
+length_sd_mm = 0
+gap_mm = 0
+gap_sd_mm = 0
+[grid]
+cells_through_strand = 2
+[hotpress]
+cells = 10
+schedule = ["close to 50 % in 4 s", "hold until 30 s", "vent 2 s", "open 2 s"]
+"""
 MARK = '<script type="application/json" id="data">'
 
 
@@ -58,7 +78,10 @@ if __name__ == "__main__":
         with_hostile_names("hostile")
         check(strandlab("report", "hostile").returncode == DONE, "report with hostile names")
         pathlib.Path("hostile.html").write_text(hostile_page("hostile/report.html"), encoding="utf-8")
-        node = subprocess.run([shutil.which("node"), SOURCE / "web" / "test" / "report.mjs", "out", "hostile.html"],
+        pathlib.Path("hot.toml").write_text(HOT_CASE, encoding="utf-8")
+        result = strandlab("run", "hot.toml", "-o", "hot")
+        check(result.returncode == DONE, f"hot run: {result.stderr}")
+        node = subprocess.run([shutil.which("node"), SOURCE / "web" / "test" / "report.mjs", "out", "hostile.html", "hot"],
                               capture_output=True, text=True, timeout=240, check=False)
         print(node.stdout, node.stderr)
         check(node.returncode == 0, "the report in the browser")

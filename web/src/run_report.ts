@@ -1,6 +1,7 @@
 // The report of one run.
 import {Chart, formatNumber, type Series} from './chart';
 import type {Run} from './data';
+import {DepthMap} from './depth_map';
 import {downloadText, button, choice, el, fileName} from './dom';
 import {unpack} from './frames';
 import {hotPressCharts, hotPressTiles} from './hotpress';
@@ -305,7 +306,10 @@ function provenance(run: Run): HTMLElement {
 function hotPress(run: Run, grid: (charts: Chart[]) => HTMLElement | null): HTMLElement | null {
   const series = table(run, 'hotpress.csv');
   if (!series || !run.record.hotpress) return null;
-  return section('The hot press', hotPressTiles(run.record.hotpress), grid(hotPressCharts(series, table(run, 'transfer_profiles.csv'))));
+  const profiles = table(run, 'transfer_profiles.csv');
+  const charts = grid(hotPressCharts(series, profiles));
+  if (charts && profiles && profiles.rows.length > 0) charts.append(new DepthMap(profiles).element);
+  return section('The hot press', hotPressTiles(run.record.hotpress), charts);
 }
 
 // ---- all of it

@@ -1,10 +1,10 @@
-// Opens reports in headless Chromium as a reader would: node report.mjs RUN_FOLDER HOSTILE_REPORT. Prints what does not hold.
+// Opens reports in headless Chromium as a reader would: node report.mjs RUN_FOLDER HOSTILE_REPORT HOT_RUN_FOLDER. Prints what does not hold.
 import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
 import {chromium} from 'playwright-core';
 
-const [folder, hostile] = process.argv.slice(2).map(path => resolve(path));
+const [folder, hostile, hot] = process.argv.slice(2).map(path => resolve(path));
 const browserPath = process.env.STRANDLAB_CHROMIUM ?? '/usr/bin/chromium';
 const profile = mkdtempSync(join(tmpdir(), 'strandlab_chromium_'));
 
@@ -414,7 +414,27 @@ async function hostileNames() {
   }
 }
 
-const steps = [chartsShowTheTables, frameProfileAgrees, downloads, sliderMovesThePicture, colourings, pointerAndKeys, pointingAtCharts, links, withoutScripts, tabbing, themes, paper, hostileNames];
+// The map of the mat through the press: one quantity of transfer_profiles.csv at a time, told with the least and the most of the table.
+async function hotPress() {
+  const other = await legible(join(hot, 'report.html'), 'dark', 390);
+  const [head, ...rows] = readFileSync(join(hot, 'transfer_profiles.csv'), 'utf8').trim().split('\n').map(line => line.split(','));
+  const seen = new Set();
+  for (const [column, label, unit] of [['T_C', 'temperature', '°C'], ['M', 'moisture content', '%'], ['gas_kPa', 'gas pressure', 'kPa'], ['cure', 'cure', ''],
+                                       ['density_kg_m3', 'density', 'kg/m³']]) {
+    await other.getByLabel('Shown').selectOption({label});
+    const values = rows.map(row => Number(row[head.indexOf(column)]) * (column === 'M' ? 100 : 1));
+    const told = await other.locator('.depth-map svg').getAttribute('aria-label');
+    const range = told.match(/: (\S+) to (\S+) (\S*)$/);
+    const numbers = range?.slice(1, 3).map(text => Number(text.replace('\u202f', '').replace('·10^', 'e')));
+    const agrees = numbers?.every((number, i) => Math.abs(number - [Math.min(...values), Math.max(...values)][i]) <= 1e-2 * Math.abs(number));
+    check(told.startsWith(label) && agrees && range[3] === unit, `the map of ${label} says "${told}"`);
+    seen.add(await other.locator('.depth-map image').getAttribute('href'));
+  }
+  check(seen.size === 5, `five quantities, ${seen.size} pictures`);
+  await other.close();
+}
+
+const steps = [chartsShowTheTables, frameProfileAgrees, downloads, sliderMovesThePicture, colourings, pointerAndKeys, pointingAtCharts, links, withoutScripts, tabbing, themes, paper, hostileNames, hotPress];
 try {
   for (const step of steps) await step().catch(error => check(false, `${step.name}: ${error.stack}`));
 } finally {
