@@ -239,7 +239,8 @@ def cure(panel: Panel) -> Table:
 
 def run(case: Case, folder: str | os.PathLike[str] | None = None, on_progress: OnProgress | None = None,
         force: bool = False) -> Run | FolderRun:
-    """Forms, presses and tests: in memory, or with `folder` as `strandlab run -o FOLDER` does, with all its files."""
+    """Forms, presses and tests: in memory, or with `folder` as `strandlab run -o FOLDER` does, with all its files. The case of a plate
+    goes into a folder only; in memory there is plate()."""
     if folder is not None:
         core.run_in_folder(case._core, os.fspath(folder), force, on_progress)
         return open_run(folder)
