@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
-from typing import Any, Callable, Iterator, Sequence
+from typing import Any, Callable, Iterator, Sequence, overload
 
 from . import _core as core
 from ._case import Case
@@ -235,6 +235,12 @@ def profile(panel: Panel, bins: int | None = None) -> Table:
 def cure(panel: Panel) -> Table:
     """Glue points of a panel: strand_a, strand_b (numbers in panel.strands), x_mm, y_mm, length_mm of glue line, gap_mm."""
     return as_table(core.cure(panel.case._core, panel._core))
+
+
+@overload
+def run(case: Case, folder: None = None, on_progress: OnProgress | None = None, force: bool = False) -> Run: ...
+@overload
+def run(case: Case, folder: str | os.PathLike[str], on_progress: OnProgress | None = None, force: bool = False) -> FolderRun: ...
 
 
 def run(case: Case, folder: str | os.PathLike[str] | None = None, on_progress: OnProgress | None = None,
