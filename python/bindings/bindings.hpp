@@ -28,5 +28,6 @@ void bind_panel(py::module_& module);
 void bind_steps(py::module_& module);
 void bind_answers(py::module_& module);
 void bind_studies(py::module_& module);
+void bind_plate(py::module_& module);
 
 }  // namespace strandlab::python

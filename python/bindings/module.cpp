@@ -67,4 +67,5 @@ PYBIND11_MODULE(_core, module) {
   bind_steps(module);
   bind_answers(module);
   bind_studies(module);
+  bind_plate(module);
 }

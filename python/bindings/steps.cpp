@@ -13,6 +13,7 @@
 #include "strandlab/run/folder.hpp"
 #include "strandlab/run/form.hpp"
 #include "strandlab/run/journey.hpp"
+#include "strandlab/run/plate.hpp"
 #include "strandlab/run/press.hpp"
 #include "strandlab/run/profile_bins.hpp"
 #include "strandlab/run/test.hpp"
@@ -89,7 +90,11 @@ py::dict strands_of(const mat::Mat& mat) {
 void run_in_folder(const cases::Case& c, const std::filesystem::path& folder, bool force, py::object on_progress) {
   PythonObserver observer(std::move(on_progress));
   const py::gil_scoped_release released;
-  run::all(c, {folder, force}, observer);
+  const run::Place place{folder, force};
+  if (cases::is_plate(c))
+    run::plate(c, place, observer);
+  else
+    run::all(c, place, observer);
 }
 
 }  // namespace

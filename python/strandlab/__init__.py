@@ -17,8 +17,9 @@ from ._case import Case, Section, ready_cases
 from ._panel import Panel, Strand
 from ._run import (BondLines, FolderRun, HotPress, Mat, Pressed, Run, Tested, bondline, bondline_example, cure, form, hotpress, open_run, press,
                    profile, run, test, theory)
+from ._plate import Plate, TestedPlate, plate
 from ._study import Study, open_study, study
 
-__all__ = ["BondLines", "Case", "FolderRun", "HotPress", "InputError", "Mat", "Panel", "Pressed", "Run", "RunError", "Section", "Strand",
-           "Study", "Tested", "__version__", "bondline", "bondline_example", "cure", "form", "hotpress", "open_run", "open_study", "press",
-           "profile", "ready_cases", "run", "study", "test", "theory"]
+__all__ = ["BondLines", "Case", "FolderRun", "HotPress", "InputError", "Mat", "Panel", "Plate", "Pressed", "Run", "RunError", "Section", "Strand",
+           "Study", "Tested", "TestedPlate", "__version__", "bondline", "bondline_example", "cure", "form", "hotpress", "open_run", "open_study",
+           "plate", "press", "profile", "ready_cases", "run", "study", "test", "theory"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
-from typing import Any, Callable, Iterator, Sequence
+from typing import Any, Callable, Iterator, Sequence, overload
 
 from . import _core as core
 from ._case import Case
@@ -237,9 +237,16 @@ def cure(panel: Panel) -> Table:
     return as_table(core.cure(panel.case._core, panel._core))
 
 
+@overload
+def run(case: Case, folder: None = None, on_progress: OnProgress | None = None, force: bool = False) -> Run: ...
+@overload
+def run(case: Case, folder: str | os.PathLike[str], on_progress: OnProgress | None = None, force: bool = False) -> FolderRun: ...
+
+
 def run(case: Case, folder: str | os.PathLike[str] | None = None, on_progress: OnProgress | None = None,
         force: bool = False) -> Run | FolderRun:
-    """Forms, presses and tests: in memory, or with `folder` as `strandlab run -o FOLDER` does, with all its files."""
+    """Forms, presses and tests: in memory, or with `folder` as `strandlab run -o FOLDER` does, with all its files. The case of a plate
+    goes into a folder only; in memory there is plate()."""
     if folder is not None:
         core.run_in_folder(case._core, os.fspath(folder), force, on_progress)
         return open_run(folder)

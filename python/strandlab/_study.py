@@ -86,6 +86,10 @@ class Study:
     def __repr__(self) -> str:
         return f"<strandlab.Study {self.folder}>"
 
+    def _repr_html_(self) -> str:
+        summary = self.summary
+        return str(summary._repr_html_()) if hasattr(summary, "_repr_html_") else repr(self)
+
 
 def study(plan: str | os.PathLike[str] | Mapping[str, Any], folder: str | os.PathLike[str] | None = None, *, workers: int = 0,
           memory_MB: float = 0, keep: str = "panels", on_progress: OnProgress | None = None) -> Study:

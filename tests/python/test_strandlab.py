@@ -341,6 +341,24 @@ class Runs(unittest.TestCase):
         self.assertTrue(issubclass(strandlab.RunError, RuntimeError))
 
 
+class Plates(unittest.TestCase):
+    def test_a_plate_has_the_bits_of_the_program(self):
+        file = pathlib.Path(__file__).parents[1] / "data" / "mats3d" / "per_a.json"
+        case = strandlab.Case.ready("osb").changed({"mat.file": file, "press.compactions": [0], "test.element_length_mm": 4,
+                                                    "test.elements_through_strand": 1, "glue.compliance_t_mm_per_MPa": [0.0105]})
+        plate = strandlab.plate(case)
+        tested = plate.test()
+        self.assertEqual(len(plate.strands["kind"]), len(set(plate.strands["strand"])))
+        with tempfile.TemporaryDirectory() as folder:
+            theirs = strandlab.run(case, folder=f"{folder}/plate")
+            for ours, name in ((tested.moduli, "moduli"), (tested.abd, "abd")):
+                self.assertGreater(len(ours["compliance_t_mm_per_MPa"]), 0)
+                for column in theirs.table(name):
+                    np.testing.assert_array_equal(np.asarray(ours[column]), np.asarray(theirs.table(name)[column]), err_msg=column)
+        with self.assertRaisesRegex(strandlab.InputError, "a mat in 3D"):
+            strandlab.form(case)
+
+
 class Studies(unittest.TestCase):
     PLAN = {"base": "osb", "replicates": 2, "set": TINY, "axes": {"press.speed_m_s": {"from": 8, "to": 16, "count": 2}},
             "contrasts": [{"key": "press.speed_m_s", "value": 16, "against": 8}]}
