@@ -59,8 +59,9 @@ int run(int argc, char** argv) {
                        strandlab::one_line(e.what() + list_hint(argc, argv)));
   });
   using namespace strandlab::app;
-  for (const auto add : {add_init, add_check, add_mat, add_press, add_test, add_run, add_report, add_movie, add_theory,
-                         add_bondline, add_hotpress, add_profile, add_study, add_compare, add_bench, add_doctor})
+  for (const auto add :
+       {add_init, add_check, add_mat, add_press, add_test, add_run, add_report, add_figures, add_movie, add_theory,
+        add_bondline, add_hotpress, add_profile, add_study, add_compare, add_bench, add_doctor})
     add(app);
   if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);
   strandlab::mpm::instruction_set();  // STRANDLAB_ISA is refused before any file is written
