@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "process.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/input_errors.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/core/version.hpp"
@@ -80,6 +81,9 @@ int main(int argc, char** argv) {
   try {
     strandlab::app::prepare_process();
     return run(argc, argv);
+  } catch (const strandlab::InputErrors& e) {
+    for (const auto& message : e.messages) fail(kBadInput, message);
+    return kBadInput;
   } catch (const strandlab::InputError& e) {
     return fail(kBadInput, e.what());
   } catch (const std::bad_alloc&) {
