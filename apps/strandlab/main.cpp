@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
     strandlab::app::prepare_process();
     return run(argc, argv);
   } catch (const strandlab::InputErrors& e) {
-    for (const auto& message : e.messages) fail(kBadInput, message);
+    for (const auto& message : e.messages) fail(kBadInput, message.c_str());
     return kBadInput;
   } catch (const strandlab::InputError& e) {
     return fail(kBadInput, e.what());
