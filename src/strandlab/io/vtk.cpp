@@ -206,15 +206,21 @@ std::string vtk_file(const char* type, const std::string& body) {
 }  // namespace
 
 template <int Dim>
-void write_vtu(const Panel<Dim>& panel, const std::filesystem::path& file, const VtuNotes<Dim>& notes) {
+void write_annotated_vtu(const Panel<Dim>& panel, const VtuNotes<Dim>& notes, const std::filesystem::path& file) {
   const std::string grid = "<UnstructuredGrid>\n" + field_data(panel, notes) + mesh(panel) +
                            (notes.formed ? displacements(panel, *notes.formed) : "") + cell_data(panel) +
                            "</Piece>\n</UnstructuredGrid>\n";
   files::write_atomically(file, vtk_file("UnstructuredGrid", grid));
 }
 
-template void write_vtu(const Panel<2>&, const std::filesystem::path&, const VtuNotes<2>&);
-template void write_vtu(const Panel<3>&, const std::filesystem::path&, const VtuNotes<3>&);
+template <int Dim>
+void write_vtu(const Panel<Dim>& panel, const std::filesystem::path& file) {
+  write_annotated_vtu(panel, {}, file);
+}
+
+template void write_annotated_vtu(const Panel<2>&, const VtuNotes<2>&, const std::filesystem::path&);
+template void write_vtu(const Panel<2>&, const std::filesystem::path&);
+template void write_vtu(const Panel<3>&, const std::filesystem::path&);
 
 void write_glue_vtu(const std::vector<GlueLinePoint>& points, const std::filesystem::path& file) {
   std::vector<float> positions, slips;

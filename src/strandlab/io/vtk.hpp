@@ -28,7 +28,10 @@ struct VtuNotes {
 // time_ms; units, a sentence.
 // Replaces `file` atomically, throws as files::write_atomically(). Dim is 2 or 3.
 template <int Dim>
-void write_vtu(const Panel<Dim>& panel, const std::filesystem::path& file, const VtuNotes<Dim>& notes = {});
+void write_annotated_vtu(const Panel<Dim>& panel, const VtuNotes<Dim>& notes, const std::filesystem::path& file);
+// The same without displacements and names of materials.
+template <int Dim>
+void write_vtu(const Panel<Dim>& panel, const std::filesystem::path& file);
 
 // A point of a glue line between two strands of a section. It goes on from the one before it where the strands are the
 // same and it is as near as that line's points are.

@@ -43,7 +43,7 @@ press::Sink<2> keep_in(Journey& journey, const io::CheckpointStore& store) {
     const auto& folder = journey.folder;
     const double compaction = journey.formed.c.schedule.compactions[static_cast<std::size_t>(index)];
     io::write_panel(panel, hash, folder.panel_file(compaction));
-    io::write_vtu(panel, folder.paraview_file(compaction), {&journey.formed.panel, material_of_kind});
+    io::write_annotated_vtu(panel, {&journey.formed.panel, material_of_kind}, folder.paraview_file(compaction));
     journey.log.say(fmt::format("press: panel at compaction {} kept", compaction));
   };
   sink.frames = report::kFrames;

@@ -97,7 +97,7 @@ TEST(Vtu, SaysWhatItShows) {
   panel.top_mm = 1.5;
   panel.time_s = 0.002;
   for (auto& x : panel.strands[1].points.x) x += Vec<2>(0.25, -0.5);
-  write_vtu<2>(panel, folder / "p.vtu", {&formed, {{"surface", "oak"}}});
+  write_annotated_vtu<2>(panel, {&formed, {{"surface", "oak"}}}, folder / "p.vtu");
   const std::string file = contents(folder / "p.vtu");
   const auto moved = array_of<float>(file, "displacement_mm");
   ASSERT_EQ(moved.size(), 2U * 6U * 3U);
