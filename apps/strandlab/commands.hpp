@@ -19,6 +19,7 @@ void add_bondline(CLI::App& app);
 void add_hotpress(CLI::App& app);
 void add_profile(CLI::App& app);
 void add_report(CLI::App& app);
+void add_figures(CLI::App& app);
 void add_movie(CLI::App& app);
 void add_study(CLI::App& app);
 void add_compare(CLI::App& app);

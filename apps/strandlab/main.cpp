@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "process.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/input_errors.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/core/version.hpp"
@@ -60,8 +61,8 @@ int run(int argc, char** argv) {
   });
   using namespace strandlab::app;
   for (const auto add :
-       {add_init, add_check, add_mat, add_form, add_press, add_test, add_run, add_report, add_movie, add_theory,
-        add_bondline, add_hotpress, add_profile, add_study, add_compare, add_bench, add_doctor})
+       {add_init, add_check, add_mat, add_form, add_press, add_test, add_run, add_report, add_figures, add_movie,
+        add_theory, add_bondline, add_hotpress, add_profile, add_study, add_compare, add_bench, add_doctor})
     add(app);
   if (argc > 1 && argv[1][0] != '-') refuse_unknown_command(app, argv[1]);
   strandlab::mpm::instruction_set();  // STRANDLAB_ISA is refused before any file is written
@@ -80,6 +81,9 @@ int main(int argc, char** argv) {
   try {
     strandlab::app::prepare_process();
     return run(argc, argv);
+  } catch (const strandlab::InputErrors& e) {
+    for (const auto& message : e.messages) fail(kBadInput, message.c_str());
+    return kBadInput;
   } catch (const strandlab::InputError& e) {
     return fail(kBadInput, e.what());
   } catch (const std::bad_alloc&) {

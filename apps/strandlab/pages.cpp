@@ -1,11 +1,13 @@
-// What is made of a run folder to look at. strandlab report: its page; strandlab movie: the pressing as a film, by
-// ffmpeg.
+// What is made of a run folder to look at. strandlab report: its page; strandlab figures: for paper; strandlab movie:
+// the pressing as a film, by ffmpeg.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "commands.hpp"
 #include "strandlab/core/text.hpp"
+#include "strandlab/run/figures.hpp"
 #include "strandlab/run/film.hpp"
 #include "strandlab/run/page.hpp"
 #include "terminal.hpp"
@@ -22,6 +24,32 @@ void add_report(CLI::App& app) {
   command->add_option("-o,--output", arguments->out, "file to write (default: report.html in the run folder)");
   command->callback(
       [arguments] { print("report: {}\n", printable(run::remake_page(arguments->folder, arguments->out).string())); });
+}
+
+void add_figures(CLI::App& app) {
+  struct FigureArguments {
+    std::string folder, out, format = "pdf";
+    report::Paper paper;
+  };
+  auto arguments = std::make_shared<FigureArguments>();
+  auto* command = app.add_subcommand("figures", "the plots and sections of a run folder for a paper (PDF, SVG, PNG)");
+  command->add_option("DIR", arguments->folder, "run folder")->required();
+  command->add_option("-o,--output", arguments->out, "folder to write into (default: figures in the run folder)");
+  command->add_option("--format", arguments->format, "pdf, svg, or png of 300 dpi")
+      ->check(CLI::IsMember({"pdf", "svg", "png"}))
+      ->capture_default_str();
+  command->add_option("--width-mm", arguments->paper.width_mm, "width of each figure")->capture_default_str();
+  command->add_option("--font", arguments->paper.font, "font of all letters")->capture_default_str();
+  command->add_option("--font-pt", arguments->paper.font_pt, "their size in points")->capture_default_str();
+  command->callback([arguments] {
+    auto& a = *arguments;
+    if (a.format == "svg") a.paper.format = report::PaperFormat::kSvg;
+    if (a.format == "png") a.paper.format = report::PaperFormat::kPng;
+    const auto out = a.out.empty() ? std::filesystem::path(a.folder) / "figures" : std::filesystem::path(a.out);
+    const auto drawn = run::draw_figures(a.folder, out, a.paper);
+    for (const auto& warning : drawn.warnings) warn(warning);
+    print("figures: {} -> {}\n", drawn.pictures.size(), printable(out.string()));
+  });
 }
 
 void add_movie(CLI::App& app) {

@@ -245,7 +245,14 @@ def names_of_any_bytes():
         check(result.returncode == DONE, f"a mat file in a folder that is not UTF-8: {result.stderr}")
 
 
-TESTS = [usage, names_of_any_bytes, case_files, overrides, mat_files, tests_no_mat_can_take, run_folders, records, hdf5_files, no_permission, no_space]
+def several_mistakes():
+    """A line for each mistake of a case."""
+    pathlib.Path("bad.toml").write_text("[mat]\nlenght_mm = 3\n[press]\nfriction = -1\n", encoding="utf-8")
+    lines = expect_bad_input(["check", "bad.toml"], ["bad.toml:2", "bad.toml:4"]).stderr.splitlines()
+    check(len(lines) == 2 and all(line.startswith("strandlab: ") for line in lines), f"a line for each mistake: {lines}")
+
+
+TESTS = [usage, names_of_any_bytes, case_files, several_mistakes, overrides, mat_files, tests_no_mat_can_take, run_folders, records, hdf5_files, no_permission, no_space]
 
 for test in TESTS:
     with scratch():

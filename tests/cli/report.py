@@ -78,6 +78,20 @@ def hostile_names():
     check(data_of("hostile/report.html")["run"]["record"]["case_name"] == HOSTILE, "the name stays what it is")
 
 
+def figures():
+    """A section of each colour for each state, four plots of the pressing, two of each test, in each format."""
+    for name, begin in (("pdf", b"%PDF"), ("svg", b"<?xml"), ("png", b"\x89PNG")):
+        result = strandlab("figures", "moved", "-o", name, "--format", name, "--width-mm", "60", "--font", "DejaVu Sans")
+        check(result.returncode == DONE and "figures: 14 -> " in result.stdout, f"figures: {result.stdout}{result.stderr}")
+        drawn = sorted(pathlib.Path(name).iterdir())
+        check(len(drawn) == 14 and all(file.suffix == f".{name}" and file.read_bytes().startswith(begin) for file in drawn), f"figures: {drawn}")
+    expect_bad_input(["figures", "moved", "--width-mm", "5"], ["--width-mm 5", "30 to 500"])
+    expect_bad_input(["figures", "moved", "--font-pt", "1"], ["--font-pt 1"])
+    expect_bad_input(["figures", "moved", "--font", 'a"; system "ls'], ["--font", "letters, digits"])
+    expect_bad_input(["figures", "half"], ["half", "no pressed panel"])
+    expect_bad_input(["figures", "nowhere"], ["nowhere"])
+
+
 def refusals():
     expect_bad_input(["report", "nowhere"], ["nowhere", "run.json"])
     expect_bad_input(["report", "moved", "-o", "no/folder/report.html"], ["no/folder"])
@@ -187,6 +201,7 @@ if __name__ == "__main__":
         without_frames()
         steps_that_are_not_done()
         hostile_names()
+        figures()
         refusals()
         run_without_a_page()
         several_at_once()

@@ -128,10 +128,10 @@ export class SectionView {
       el('label', {class: 'check'}, glue, 'Glue lines'),
       menu('Picture: magnify, download',
         button('−', 'Magnify less', () => this.magnify(1 / 1.5)), button('+', 'Magnify more', () => this.magnify(1.5)),
-        button('Fit', 'Show the whole section', () => this.reset()),
+        button('Fit', 'Fit: show the whole section', () => this.reset()),
         button('PNG', 'Download this picture as PNG', () => this.downloadPng()),
-        button('Profile CSV', 'Download the density profile as CSV', () => this.profile.downloadCsv()),
-        button('Profile SVG', 'Download the density profile as SVG', () =>
+        button('Profile CSV', 'Profile CSV: download the density profile', () => this.profile.downloadCsv()),
+        button('Profile SVG', 'Profile SVG: download the density profile', () =>
           downloadText(`${this.profile.spec.id}.svg`, 'image/svg+xml', this.profile.svg()))));
   }
 

@@ -18,6 +18,7 @@
 #include "strandlab/case/plate_mat.hpp"
 #include "strandlab/case/write.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/input_errors.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/glue/bond.hpp"
@@ -236,20 +237,52 @@ std::string nearest_key(const Path& path, const std::vector<std::string>& same_s
   throw InputError(fmt::format("{}: unknown key {}{} {}", given.where, name, nearest_key(given.path, here), known));
 }
 
-void flatten(const Source& source, const toml::table& table, const Path& prefix, std::vector<Given>& out) {
+// The mistakes of a case, told together.
+class Mistakes {
+ public:
+  // Notes what `act` throws as InputError.
+  template <class Act>
+  void note(const Act& act) {
+    try {
+      act();
+    } catch (const InputError& e) {
+      messages_.emplace_back(e.what());
+    }
+  }
+  // Throws InputError for one, InputErrors for several.
+  void refuse() const {
+    if (messages_.empty()) return;
+    if (messages_.size() == 1) throw InputError(messages_.front());
+    auto shown = messages_;
+    constexpr std::size_t kShown = 20;
+    if (shown.size() > kShown) {
+      shown.resize(kShown);
+      shown.push_back(fmt::format("... and {} more", messages_.size() - kShown));
+    }
+    throw InputErrors(std::move(shown));
+  }
+
+ private:
+  std::vector<std::string> messages_;
+};
+
+void flatten(const Source& source, const toml::table& table, const Path& prefix, std::vector<Given>& out,
+             Mistakes& mistakes) {
   for (auto&& [key, node] : table) {
     Given given{prefix, &node, source.name, source.in_file};
     given.path.emplace_back(key.str());
     if (source.has_lines) given.where += fmt::format(":{}", node.source().begin.line);
-    const bool known = find_key(given.path) != nullptr;
-    if (known || !node.is_table()) {
-      if (!known) throw_unknown_key(given);
+    const auto* section = node.as_table();
+    if (find_key(given.path) != nullptr) {
       out.push_back(std::move(given));
-      continue;
+    } else if (!section) {
+      mistakes.note([&] { throw_unknown_key(given); });
+    } else if (!is_section(given.path)) {
+      mistakes.note([&] { throw_unknown_section(given); });
+    } else {
+      out.push_back({given.path, nullptr, given.where, given.in_file});
+      flatten(source, *section, given.path, out, mistakes);
     }
-    if (!is_section(given.path)) throw_unknown_section(given);
-    out.push_back({given.path, nullptr, given.where, given.in_file});
-    flatten(source, *node.as_table(), given.path, out);
   }
 }
 
@@ -610,40 +643,52 @@ void refuse_unused_kinds(const Case& c, const mat::Layup& layup, const std::vect
   }
 }
 
-void check_case(const Case& c, const std::vector<Given>& given, const std::string& source) {
-  for (const auto& kind : c.kinds) check_kind(c, kind, given, source);
+void check_materials(const Case& c, const std::vector<Given>& given, const std::string& source, Mistakes& mistakes) {
+  const auto check = [&](const wood::Material& material, const Path& path, const std::string& opening) {
+    mistakes.note([&] {
+      try {
+        wood::validate(material);
+      } catch (const InputError& e) {
+        throw InputError(fmt::format("{}: {}: {}", where_of(given, source, path), opening, e.what()));
+      }
+    });
+  };
   for (const auto& settings : c.materials) {
     const auto& name = settings.material.name;
-    try {
-      wood::validate(settings.material);
-    } catch (const InputError& e) {
-      throw InputError(fmt::format("{}: [materials.{}]: {}", where_of(given, source, {"materials", name, ""}),
-                                   shortened(name), e.what()));
-    }
+    check(settings.material, {"materials", name, ""}, fmt::format("[materials.{}]", shortened(name)));
   }
+  mistakes.refuse();  // of a kind's wood only what its law makes of a material that is right
   for (const auto& kind : strand_kinds(c)) {
-    try {
-      wood::validate(kind.material);
-    } catch (const InputError& e) {
-      throw InputError(fmt::format("{}: [kinds.{}] with law = \"{}\": {}",
-                                   where_of(given, source, {"kinds", kind.name, "law"}), shortened(kind.name),
-                                   wood::name(kind.material.law), e.what()));
-    }
+    check(kind.material, {"kinds", kind.name, "law"},
+          fmt::format("[kinds.{}] with law = \"{}\"", shortened(kind.name), wood::name(kind.material.law)));
   }
-  check_hotpress(c, [&](const std::string& key, const std::string& message) {
-    throw InputError(fmt::format("{}: {}: {}", where_of(given, source, split(key)), key, message));
+}
+
+void check_case(const Case& c, const std::vector<Given>& given, const std::string& source) {
+  Mistakes mistakes;
+  for (const auto& kind : c.kinds) mistakes.note([&] { check_kind(c, kind, given, source); });
+  check_materials(c, given, source, mistakes);
+  mistakes.note([&] {
+    check_hotpress(c, [&](const std::string& key, const std::string& message) {
+      throw InputError(fmt::format("{}: {}: {}", where_of(given, source, split(key)), key, message));
+    });
   });
-  try {
-    glue::check(c.test.curing.coverage);
-  } catch (const InputError& e) {
-    throw InputError(fmt::format("{}: glue.coverage: {}", where_of(given, source, {"glue", "coverage"}), e.what()));
-  }
+  mistakes.note([&] {
+    try {
+      glue::check(c.test.curing.coverage);
+    } catch (const InputError& e) {
+      throw InputError(fmt::format("{}: glue.coverage: {}", where_of(given, source, {"glue", "coverage"}), e.what()));
+    }
+  });
   mat::Layup rows;
-  try {
-    rows = layup(c);
-  } catch (const InputError& e) {
-    throw InputError(fmt::format("{}: mat.rows: {}", where_of(given, source, {"mat", "rows"}), e.what()));
-  }
+  mistakes.note([&] {
+    try {
+      rows = layup(c);
+    } catch (const InputError& e) {
+      throw InputError(fmt::format("{}: mat.rows: {}", where_of(given, source, {"mat", "rows"}), e.what()));
+    }
+  });
+  mistakes.refuse();
   if (!c.mat_file.empty()) return;
   refuse_unused_kinds(c, rows, given, source);
   if (!is_plate(c)) return;
@@ -710,10 +755,11 @@ void use_bondline(Case& c, const fs::path& file) {
 
 Case case_from_sources(Case c, const std::vector<Source>& sources) {
   std::vector<Given> given;
+  Mistakes mistakes;
   fs::path mat_folder, bondline_folder, log_folder;
   for (const auto& source : sources) {
     const auto first = given.size();
-    flatten(source, source.table, {}, given);
+    flatten(source, source.table, {}, given, mistakes);
     for (auto i = first; i < given.size(); ++i) {
       if (!given[i].node) continue;
       if (given[i].path == Path{"hotpress", "log", "file"}) log_folder = source.folder;
@@ -725,14 +771,17 @@ Case case_from_sources(Case c, const std::vector<Source>& sources) {
       (is_mat ? c.places.mat_file : c.places.bondline_file) = opening_of_file(given[i], *key);
     }
   }
+  Mistakes names;  // without its section a key has no place
   for (const auto& g : given) {
-    if (!g.node) make_instance(c, g);
+    if (!g.node) names.note([&] { make_instance(c, g); });
   }
+  names.refuse();
   std::erase_if(given, [](const Given& g) { return !g.node; });
   auto ordered = given;
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
-  for (const auto& g : ordered) apply(c, g);
+  for (const auto& g : ordered) mistakes.note([&] { apply(c, g); });
+  mistakes.refuse();
   choose_states(c, given, sources.front().name);
   make_absolute(c.mat_file, mat_folder);
   make_absolute(c.bondline_file, bondline_folder);

@@ -45,7 +45,7 @@ std::string colour(std::size_t curve, std::size_t count) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte(c.red), byte(c.green), byte(c.blue));
 }
 
-std::string style_of(CurveStyle style, std::size_t curve) {
+std::string style_of(CurveStyle style, std::size_t curve, double point_size) {
   constexpr std::array kPoints{7, 5, 9, 11, 13, 6, 4, 8};  // gnuplot's filled, then open symbols
   switch (style) {
     case CurveStyle::kLines:
@@ -55,13 +55,13 @@ std::string style_of(CurveStyle style, std::size_t curve) {
     case CurveStyle::kLinesAndPoints:
       break;
   }
-  return fmt::format("with linespoints pt {} ps 1.5", kPoints[curve % kPoints.size()]);
+  return fmt::format("with linespoints pt {} ps {}", kPoints[curve % kPoints.size()], point_size);
 }
 
 // `dashes` counts the names of references.
-std::string reference_style(const Curve& reference, std::size_t dashes) {
+std::string reference_style(const Curve& reference, std::size_t dashes, double point_size) {
   constexpr std::array kDashes{2, 4, 3, 5};  // gnuplot's dash types from long dashes to dots and dashes
-  if (reference.x.size() == 1) return fmt::format("with points pt {} ps 2 lw 2", 1 + dashes % 2);
+  if (reference.x.size() == 1) return fmt::format("with points pt {} ps {} lw 2", 1 + dashes % 2, point_size * 4 / 3);
   return fmt::format("with lines dt {} lw 2", kDashes[dashes % kDashes.size()]);
 }
 
@@ -168,6 +168,20 @@ std::string_view png_at_begin(std::string_view bytes) {
   return bytes.substr(0, end);
 }
 
+// A whole picture of text, from its first to its last words, before `end`.
+std::string_view between(std::string_view bytes, std::string_view first, std::string_view last) {
+  if (bytes.substr(0, first.size()) != first) return {};
+  const auto at = bytes.rfind(last);
+  return at == std::string_view::npos ? std::string_view() : bytes.substr(0, at + last.size());
+}
+
+// The picture that a script printed: PNG, PDF or SVG; empty where it is not whole.
+std::string_view picture_in(std::string_view bytes) {
+  if (const auto pdf = between(bytes, "%PDF", "%%EOF\n"); !pdf.empty()) return pdf;
+  if (const auto svg = between(bytes, "<?xml", "</svg>"); !svg.empty()) return svg;
+  return png_at_begin(bytes);
+}
+
 // gnuplot goes on behind a mistake: what it prints after each script tells whose a picture is.
 constexpr std::string_view kMark = "-- end of a picture of strandlab --\n";
 
@@ -182,16 +196,78 @@ std::string joined(const std::vector<Script>& scripts) {
   return text;
 }
 
-// What each script printed, empty where that is no whole PNG.
-std::vector<std::string_view> pngs_of(std::size_t scripts, std::string_view out) {
-  std::vector<std::string_view> pngs;
-  while (pngs.size() < scripts) {
-    pngs.push_back(png_at_begin(out));
-    out.remove_prefix(pngs.back().size());
+// What each script printed, empty where that is no whole picture.
+std::vector<std::string_view> pictures_of(std::size_t scripts, std::string_view out) {
+  std::vector<std::string_view> pictures;
+  while (pictures.size() < scripts) {
     const auto mark = out.find(kMark);
+    pictures.push_back(picture_in(out.substr(0, mark)));
     out.remove_prefix(mark == std::string_view::npos ? out.size() : mark + kMark.size());
   }
-  return pngs;
+  return pictures;
+}
+
+// ---- Settings -------------------------------------------------------------------------------------------------------
+
+constexpr double kScreenPoints = 1.5;  // size of the points, in the terminal's own measure
+
+double point_size(PaperFormat format) {
+  switch (format) {
+    case PaperFormat::kPdf:
+      return .45;
+    case PaperFormat::kSvg:
+      return .4;
+    case PaperFormat::kPng:
+      return kScreenPoints;
+  }
+  __builtin_unreachable();
+}
+
+// What the page of a screen is set like.
+std::string screen_settings(const Plot& plot) {
+  std::string script = fmt::format(
+      "set encoding utf8\nset terminal pngcairo noenhanced size 1400,900 font \"sans,20\" background \"#ffffff\"\n"
+      "set title {}\n",
+      quoted(plot.title));
+  return script;
+}
+
+std::string screen_key(const Plot& plot) {
+  return fmt::format("set key outside right top vertical title {} left Left reverse samplen 2\n",
+                     quoted(plot.key_title));
+}
+
+// Lines as thin as journals want them; letters of the size asked for.
+std::string paper_settings(const Paper& paper) {
+  constexpr double kHeight = .8;  // over the width
+  const double mm = paper.width_mm;
+  std::string terminal;
+  switch (paper.format) {
+    case PaperFormat::kPdf:
+      terminal = fmt::format("pdfcairo noenhanced size {}cm,{}cm font \"{},{}\" fontscale .72 linewidth .4", mm / 10,
+                             kHeight * mm / 10, paper.font, paper.font_pt);
+      break;
+    case PaperFormat::kSvg: {
+      constexpr double kPixelsPerInch = 96;  // CSS
+      const double px = kPixelsPerInch / 25.4;
+      terminal = fmt::format("svg noenhanced size {:.0f},{:.0f} font \"{},{:.1f}\" linewidth .5 background \"#ffffff\"",
+                             mm * px, kHeight * mm * px, paper.font, paper.font_pt * kPixelsPerInch / 72);
+      break;
+    }
+    case PaperFormat::kPng: {
+      const double px = kPaperDpi / 25.4;
+      terminal = fmt::format("pngcairo noenhanced size {:.0f},{:.0f} font \"{},{:.1f}\" background \"#ffffff\"",
+                             mm * px, kHeight * mm * px, paper.font, paper.font_pt * kPaperDpi / 96);
+      break;
+    }
+  }
+  return fmt::format("set encoding utf8\nset terminal {}\nunset title\n", terminal);
+}
+
+// gnuplot takes letters of SVG for wider than they are.
+std::string paper_key(const Plot& plot, PaperFormat format) {
+  return fmt::format("set key outside top center horizontal maxrows 3 title {} Left reverse samplen 2{}\n",
+                     quoted(plot.key_title), format == PaperFormat::kSvg ? " width -6" : "");
 }
 
 // The script as a file in memory, at its start: nothing is left of it, and no other run can take it for its own.
@@ -253,18 +329,17 @@ Finished run(const Gnuplot& gnuplot, const std::string& script) {
 
 }  // namespace
 
-std::string gnuplot_script(const Plot& plot) {
-  std::string script = fmt::format(
-      "set encoding utf8\nset terminal pngcairo noenhanced size 1400,900 font \"sans,20\" background \"#ffffff\"\n"
-      "set title {}\nset xlabel {}\nset ylabel {}\nset border 3 lw 1.5\nset tics nomirror out\n"
+std::string gnuplot_script(const Plot& plot, const std::optional<Paper>& paper) {
+  std::string script = paper ? paper_settings(*paper) : screen_settings(plot);
+  script += fmt::format(
+      "set xlabel {}\nset ylabel {}\nset border 3 lw 1.5\nset tics nomirror out\n"
       "set grid lt 1 lc rgb \"#e0e0e0\" lw 1\nset xrange [{}:{}]\nset yrange [0:*]\n",
-      quoted(plot.title), quoted(plot.x_label), quoted(plot.y_label), plot.x_low, plot.x_high);
-  if (plot.curves.size() + plot.references.size() > 1) {
-    script += fmt::format("set key outside right top vertical title {} left Left reverse samplen 2\n",
-                          quoted(plot.key_title));
-  } else {
+      quoted(plot.x_label), quoted(plot.y_label), plot.x_low, plot.x_high);
+  if (plot.curves.size() + plot.references.size() > 1)
+    script += paper ? paper_key(plot, paper->format) : screen_key(plot);
+  else
     script += "unset key\nset rmargin 4\n";
-  }
+  const double size = paper ? point_size(paper->format) : kScreenPoints;
   std::string curves;
   for (std::size_t i = 0; i < plot.bands.size(); ++i) {
     if (plot.bands[i].x.empty()) continue;
@@ -277,7 +352,7 @@ std::string gnuplot_script(const Plot& plot) {
   for (std::size_t i = 0; i < plot.curves.size(); ++i) {
     script += data_block(plot.curves[i], fmt::format("curve{}", i));
     if (i > 0) curves += ", ";
-    curves += fmt::format("$curve{} using 1:2 {} lw 3 lc rgb \"{}\" title {}", i, style_of(plot.style, i),
+    curves += fmt::format("$curve{} using 1:2 {} lw 3 lc rgb \"{}\" title {}", i, style_of(plot.style, i, size),
                           colour(i, plot.curves.size()), quoted(plot.curves[i].name));
   }
   std::size_t names = 0;
@@ -286,23 +361,23 @@ std::string gnuplot_script(const Plot& plot) {
     if (i > 0 && !reference.name.empty()) ++names;
     script += data_block(reference, fmt::format("reference{}", i));
     curves += fmt::format(", $reference{} using 1:2 {} lc rgb \"#303030\" title {}", i,
-                          reference_style(reference, names), quoted(reference.name));
+                          reference_style(reference, names, size), quoted(reference.name));
   }
-  return script + "plot " + curves + "\n";
+  return script + "plot " + curves + "\nset output\n";
 }
 
 Drawn draw_scripts(const std::vector<Script>& scripts, const Gnuplot& gnuplot) {
   if (scripts.empty()) return {};
   const Finished finished = run(gnuplot, joined(scripts));
-  const auto pngs = pngs_of(scripts.size(), finished.out);
+  const auto printed = pictures_of(scripts.size(), finished.out);
   Drawn drawn;
   std::string missing;
   for (std::size_t i = 0; i < scripts.size(); ++i) {
-    const auto& file = scripts[i].png;
-    if (pngs[i].empty()) {
+    const auto& file = scripts[i].file;
+    if (printed[i].empty()) {
       missing += (missing.empty() ? "" : ", ") + file.string();
     } else {
-      files::write_atomically(file, pngs[i]);
+      files::write_atomically(file, printed[i]);
       drawn.pictures.push_back(file);
     }
   }
@@ -319,15 +394,15 @@ Drawn draw_scripts(const std::vector<Script>& scripts, const Gnuplot& gnuplot) {
   return drawn;
 }
 
-Drawn draw(const std::vector<Picture>& pictures, const Gnuplot& gnuplot) {
+Drawn draw(const std::vector<Picture>& pictures, const Gnuplot& gnuplot, const std::optional<Paper>& paper) {
   std::vector<std::string> warnings;
   std::vector<Script> scripts;
-  for (const auto& [plot, png] : pictures) {
+  for (const auto& [plot, file] : pictures) {
     const auto& curves = plot.curves;
     if (std::all_of(curves.begin(), curves.end(), [](const Curve& curve) { return curve.x.empty(); }))
-      warnings.push_back(fmt::format("no picture {}: nothing to plot yet", png.string()));
+      warnings.push_back(fmt::format("no picture {}: nothing to plot yet", file.string()));
     else
-      scripts.push_back({gnuplot_script(plot), png});
+      scripts.push_back({gnuplot_script(plot, paper), file});
   }
   auto drawn = draw_scripts(scripts, gnuplot);
   drawn.warnings.insert(drawn.warnings.begin(), warnings.begin(), warnings.end());

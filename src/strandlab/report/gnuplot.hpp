@@ -2,8 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "strandlab/report/paper.hpp"
 
 namespace strandlab::report {
 
@@ -31,9 +34,9 @@ struct Plot {
   std::vector<Band> bands{};  // none, or one for each curve (which may be empty)
 };
 
-// The gnuplot program text of a plot that prints a PNG to its standard output. Curves keep their colour from the first
-// (dark) to the last (light) of a sequential map.
-std::string gnuplot_script(const Plot& plot);
+// The gnuplot program text of a plot that prints a picture to its standard output: a PNG, or for paper, without a
+// title, what the paper says. Curves keep their colour from the first (dark) to the last (light) of a sequential map.
+std::string gnuplot_script(const Plot& plot, const std::optional<Paper>& paper = std::nullopt);
 
 // What draws, and how long it may take: plots take a tenth of a second each, a gnuplot that waits for something is
 // ended.
@@ -42,10 +45,10 @@ struct Gnuplot {
   double limit_s = 60;
 };
 
-// A gnuplot program that prints one PNG to its standard output, and the file of that picture.
+// A gnuplot program that prints one picture to its standard output (PNG, PDF or SVG), and the file of that picture.
 struct Script {
   std::string text;
-  std::filesystem::path png;
+  std::filesystem::path file;
 };
 
 struct Drawn {
@@ -61,10 +64,11 @@ struct Drawn {
 // A plot and the file of its picture.
 struct Picture {
   Plot plot;
-  std::filesystem::path png;
+  std::filesystem::path file;
 };
 
 // The same for plots; one whose curves have no points is not drawn, and its sentence says so.
-[[nodiscard]] Drawn draw(const std::vector<Picture>& pictures, const Gnuplot& gnuplot = {});
+[[nodiscard]] Drawn draw(const std::vector<Picture>& pictures, const Gnuplot& gnuplot = {},
+                         const std::optional<Paper>& paper = std::nullopt);
 
 }  // namespace strandlab::report

@@ -1,5 +1,7 @@
 #include "strandlab/report/section_picture.hpp"
 
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
 #include <cairo.h>
 #include <fmt/format.h>
 
@@ -7,6 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/files/atomic_file.hpp"
@@ -44,6 +47,10 @@ std::string tick_text(double value) {
   return fmt::format("{:g}", std::abs(value) < 1e-12 ? 0.0 : value);
 }
 
+int pixels_wide(const PictureOptions& options) {
+  return options.paper ? static_cast<int>(std::lround(options.paper->width_mm / 25.4 * kPaperDpi)) : options.width_px;
+}
+
 // Places on the picture, pixels. All lengths of the layout go with the text height.
 struct Layout {
   double text = 0;                  // height of the letters
@@ -60,8 +67,8 @@ struct Layout {
 
 Layout layout_of(const Panel<2>& panel, const PictureOptions& options) {
   Layout l;
-  l.width = options.width_px;
-  l.text = std::max(11.0, options.width_px / 85.0);
+  l.width = pixels_wide(options);
+  l.text = options.paper ? options.paper->font_pt / 72 * kPaperDpi : std::max(11.0, l.width / 85.0);
   l.left = 4.2 * l.text;
   l.right = l.width - 7.0 * l.text;
   l.bar_left = l.right + 1.4 * l.text;
@@ -77,15 +84,25 @@ Layout layout_of(const Panel<2>& panel, const PictureOptions& options) {
   return l;
 }
 
+cairo_status_t append_bytes(void* to, const unsigned char* data, unsigned size) {
+  static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), size);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+// Where to draw, in pixels, whatever comes of it: a PNG, or lines on paper.
 class Canvas {
  public:
-  Canvas(int width, int height)
-      : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), cairo_surface_destroy),
+  Canvas(int width, int height, const std::optional<Paper>& paper)
+      : format_(paper ? paper->format : PaperFormat::kPng),
+        surface_(surface(width, height), cairo_surface_destroy),
         cairo_(cairo_create(surface_.get()), cairo_destroy) {
-    cairo_select_font_face(cairo_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    if (is_vector()) cairo_scale(cairo_.get(), 72 / kPaperDpi, 72 / kPaperDpi);
+    cairo_select_font_face(cairo_.get(), paper ? paper->font.c_str() : "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                           CAIRO_FONT_WEIGHT_NORMAL);
     set({1, 1, 1});
     cairo_paint(cairo_.get());
   }
+  bool is_vector() const { return format_ != PaperFormat::kPng; }
   cairo_t* get() { return cairo_.get(); }
 
   void set(const Colour& c) { cairo_set_source_rgb(cairo_.get(), c.red, c.green, c.blue); }
@@ -119,23 +136,40 @@ class Canvas {
     cairo_restore(cairo_.get());
   }
 
-  std::string png() {
+  // The picture's file. Nothing can be drawn afterwards.
+  std::string finish() {
     if (cairo_status(cairo_.get()) != CAIRO_STATUS_SUCCESS) {
       throw RunError(fmt::format("cannot draw: {}", cairo_status_to_string(cairo_status(cairo_.get()))));
     }
-    std::string bytes;
-    const auto append = [](void* to, const unsigned char* data, unsigned size) {
-      static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), size);
-      return CAIRO_STATUS_SUCCESS;
-    };
-    const auto status = cairo_surface_write_to_png_stream(surface_.get(), append, &bytes);
-    if (status != CAIRO_STATUS_SUCCESS) {
-      throw RunError(fmt::format("cannot make a PNG: {}", cairo_status_to_string(status)));
+    auto status = CAIRO_STATUS_SUCCESS;
+    if (is_vector()) {
+      cairo_surface_finish(surface_.get());
+      status = cairo_surface_status(surface_.get());
+    } else {
+      status = cairo_surface_write_to_png_stream(surface_.get(), append_bytes, &bytes_);
     }
-    return bytes;
+    if (status != CAIRO_STATUS_SUCCESS) {
+      throw RunError(fmt::format("cannot make a picture: {}", cairo_status_to_string(status)));
+    }
+    return std::move(bytes_);
   }
 
  private:
+  cairo_surface_t* surface(int width, int height) {
+    const double wide = width * 72 / kPaperDpi, high = height * 72 / kPaperDpi;  // points
+    if (format_ == PaperFormat::kPng) return cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+    if (format_ == PaperFormat::kSvg) {
+      auto* svg = cairo_svg_surface_create_for_stream(append_bytes, &bytes_, wide, high);
+      cairo_svg_surface_set_document_unit(svg, CAIRO_SVG_UNIT_PT);
+      return svg;
+    }
+    auto* pdf = cairo_pdf_surface_create_for_stream(append_bytes, &bytes_, wide, high);
+    cairo_pdf_surface_set_metadata(pdf, CAIRO_PDF_METADATA_CREATE_DATE, "");  // the same run, the same bytes
+    return pdf;
+  }
+
+  std::string bytes_;
+  PaperFormat format_;
   std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface_;
   std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo_;
 };
@@ -151,7 +185,7 @@ void path_through(cairo_t* cairo, const Layout& l, const std::vector<Vec<2>>& co
   cairo_close_path(cairo);
 }
 
-// Cells without antialiasing, so that no seams show between them.
+// Cells without antialiasing, on paper with a hairline of their own colour, so that no seams show between them.
 void draw_cells(Canvas& picture, const Layout& l, const Strand<2>& strand, Colouring colouring,
                 const ColourRange& range) {
   const auto c = corners(strand);
@@ -159,7 +193,13 @@ void draw_cells(Canvas& picture, const Layout& l, const Strand<2>& strand, Colou
   for (std::size_t p = 0; p < strand.size(); ++p) {
     picture.set(colour_of(shown_value(strand, p, colouring), colouring, range));
     path_through(picture.get(), l, c, strand.lattice.cell(p));
-    cairo_fill(picture.get());
+    if (picture.is_vector()) {
+      cairo_set_line_width(picture.get(), 0.5);
+      cairo_fill_preserve(picture.get());
+      cairo_stroke(picture.get());
+    } else {
+      cairo_fill(picture.get());
+    }
   }
   cairo_set_antialias(picture.get(), CAIRO_ANTIALIAS_DEFAULT);
 }
@@ -207,7 +247,7 @@ void draw_colour_bar(Canvas& picture, const Layout& l, Colouring colouring, cons
   for (int i = 0; i < lines; ++i) {
     const double y = top + i, share = 1 - i / height;
     picture.set(colour_of(range.low + (range.high - range.low) * share, colouring, range));
-    picture.rectangle(l.bar_left, y, right, std::min(y + 1, bottom));
+    picture.rectangle(l.bar_left, y, right, std::min(y + (picture.is_vector() ? 1.5 : 1), bottom));
   }
   cairo_set_antialias(picture.get(), CAIRO_ANTIALIAS_DEFAULT);
   picture.set({0.15, 0.15, 0.15});
@@ -222,8 +262,8 @@ void draw_colour_bar(Canvas& picture, const Layout& l, Colouring colouring, cons
 }
 
 void check(const PictureOptions& options) {
-  if (options.width_px < 400 || options.width_px > 20000) {
-    throw InputError(fmt::format("picture width is {} pixels, allowed 400..20000", options.width_px));
+  if (const int width = pixels_wide(options); width < 400 || width > 20000) {
+    throw InputError(fmt::format("picture width is {} pixels, allowed 400..20000", width));
   }
   if (!(options.vertical_exaggeration >= 0.1 && options.vertical_exaggeration <= 20)) {
     throw InputError(fmt::format("vertical exaggeration is {}, allowed 0.1..20", options.vertical_exaggeration));
@@ -257,11 +297,11 @@ ColourRange common_range(const std::vector<const Panel<2>*>& panels, Colouring c
   return {floor, std::max(floor + kStep, std::ceil(high / kStep - 1e-9) * kStep)};
 }
 
-void draw_section(const Panel<2>& panel, const PictureOptions& options, const std::filesystem::path& png) {
+void draw_section(const Panel<2>& panel, const PictureOptions& options, const std::filesystem::path& file) {
   check(options);
   const ColourRange range = options.range.value_or(common_range({&panel}, options.colouring));
   const Layout l = layout_of(panel, options);
-  Canvas picture(l.width, l.height);
+  Canvas picture(l.width, l.height, options.paper);
   draw_press(picture, l, panel, options.colouring);
   for (const auto& strand : panel.strands) draw_cells(picture, l, strand, options.colouring, range);
   for (const auto& strand : panel.strands) draw_outline(picture, l, strand);
@@ -271,7 +311,7 @@ void draw_section(const Panel<2>& panel, const PictureOptions& options, const st
   const std::string title =
       options.title.empty() ? fmt::format("{:.1f} % compaction", 100 * std::abs(panel.compaction())) : options.title;
   picture.text(title, l.left, 1.2 * l.text, 1.15 * l.text, 0, 0.5);
-  files::write_atomically(png, picture.png());
+  files::write_atomically(file, picture.finish());
 }
 
 }  // namespace strandlab::report

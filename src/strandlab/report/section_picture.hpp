@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "strandlab/panel/panel.hpp"
+#include "strandlab/report/paper.hpp"
 
 namespace strandlab::report {
 
@@ -26,11 +27,12 @@ struct PictureOptions {
   std::string title;                 // else "<percent> % compaction"
   int width_px = 2000;               // 400..20000
   double vertical_exaggeration = 1;  // > 0
+  std::optional<Paper> paper{};      // for paper: PDF, SVG or PNG of its width and font in place of the pixels
 };
 
-// Writes a PNG: strands cell by cell with thin outlines, platens, axes in mm, colour bar with its unit. All states of a
-// run get the same extent (window length x thickness as formed), so that pictures can be flipped through. Throws
-// InputError for options out of range, else as files::write_atomically().
-void draw_section(const Panel<2>& panel, const PictureOptions& options, const std::filesystem::path& png);
+// Writes a PNG, or what the paper says: strands cell by cell with thin outlines, platens, axes in mm, colour bar with
+// its unit. All states of a run get the same extent (window length x thickness as formed), so that pictures can be
+// flipped through. Throws InputError for options out of range, else as files::write_atomically().
+void draw_section(const Panel<2>& panel, const PictureOptions& options, const std::filesystem::path& file);
 
 }  // namespace strandlab::report

@@ -213,6 +213,9 @@ fs::path RunFolder::frame_file(int index) const {
 fs::path RunFolder::slip_file(double compaction) const {
   return folder_ / "glue_lines" / fmt::format("slip_{}.csv", compaction);
 }
+fs::path RunFolder::glue_line_file(double compaction) const {
+  return folder_ / "glue_lines" / fmt::format("glue_{}.vtu", compaction);
+}
 fs::path RunFolder::picture_file(const std::string& what, double compaction) const {
   return folder_ / "pictures" / fmt::format("{}_{}.png", what, compaction);
 }

@@ -38,8 +38,9 @@ class RunFolder {
   // File of the panel at a compaction: "panels/panel_0.1.h5", "paraview/panel_0.1.vtu", "pictures/grain_angle_0.1.png".
   std::filesystem::path panel_file(double compaction) const;
   std::filesystem::path paraview_file(double compaction) const;
-  std::filesystem::path frame_file(int index) const;         // "frames/frame_07.h5"
-  std::filesystem::path slip_file(double compaction) const;  // "glue_lines/slip_0.1.csv"
+  std::filesystem::path frame_file(int index) const;              // "frames/frame_07.h5"
+  std::filesystem::path slip_file(double compaction) const;       // "glue_lines/slip_0.1.csv"
+  std::filesystem::path glue_line_file(double compaction) const;  // "glue_lines/glue_0.1.vtu"
   std::filesystem::path picture_file(const std::string& what, double compaction) const;
 
   // run.json: what is known of the run; save() replaces the file atomically.

@@ -3,6 +3,8 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "strandlab/case/estimate.hpp"
@@ -34,12 +36,14 @@ std::string press_hash(const Journey& journey) {
 press::Sink<2> keep_in(Journey& journey, const io::CheckpointStore& store) {
   const auto hash = press_hash(journey);
   const auto& c = journey.formed.c;
+  std::map<std::string, std::string> material_of_kind;
+  for (const auto& kind : c.kinds) material_of_kind[kind.name] = kind.material;
   press::Sink<2> sink;
-  sink.snapshot = [&journey, hash](const Panel<2>& panel, int index) {
+  sink.snapshot = [&journey, hash, material_of_kind](const Panel<2>& panel, int index) {
     const auto& folder = journey.folder;
     const double compaction = journey.formed.c.schedule.compactions[static_cast<std::size_t>(index)];
     io::write_panel(panel, hash, folder.panel_file(compaction));
-    io::write_vtu(panel, folder.paraview_file(compaction));
+    io::write_annotated_vtu(panel, {&journey.formed.panel, material_of_kind}, folder.paraview_file(compaction));
     journey.log.say(fmt::format("press: panel at compaction {} kept", compaction));
   };
   sink.frames = report::kFrames;

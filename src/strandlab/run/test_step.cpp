@@ -2,9 +2,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/glue/glue.hpp"
+#include "strandlab/io/vtk.hpp"
 #include "strandlab/report/plots.hpp"
 #include "strandlab/report/theory_curves.hpp"
 #include "strandlab/run/record.hpp"
@@ -53,6 +56,29 @@ void restore_tables(Journey& journey, const Tested& tested) {
   folder.save();
 }
 
+// Where the panel is glued, and how far its glue lines slide where the tension test told it.
+std::vector<io::GlueLinePoint> glue_lines_of(const Panel<2>& panel, const TestedState& state,
+                                             const glue::CuringOptions& curing) {
+  std::vector<io::GlueLinePoint> points;
+  for (const auto& slip : state.result.slips)
+    points.push_back({static_cast<int>(slip.a), static_cast<int>(slip.b), slip.position, slip.slip_mm_per_strain});
+  if (!points.empty()) return points;
+  for (const auto& p : glue::cure(panel, curing))
+    points.push_back({p.a.strand, p.b.strand, (p.a.position + p.b.position) / 2, std::nan("")});
+  return points;
+}
+
+void write_glue_lines(Journey& journey, const Panel<2>& panel, const Tested& tested) {
+  const auto& folder = journey.folder;
+  const auto file = folder.glue_line_file(tested.back().compaction);
+  fs::create_directories(file.parent_path());
+  io::write_glue_vtu(glue_lines_of(panel, tested.back(), journey.formed.c.test.curing), file);
+  std::vector<io::PvdEntry> states;
+  for (const auto& state : tested)
+    states.push_back({state.compaction, folder.glue_line_file(state.compaction).filename().string()});
+  io::write_pvd(states, file.parent_path() / "glue_lines.pvd");
+}
+
 // The state's files and its place in the record: tests that are stopped go on behind it.
 void keep(Journey& journey, const Tested& tested) {
   auto& folder = journey.folder;
@@ -98,6 +124,7 @@ Tested test_into(Journey& journey) {
   for (auto i = tested.size(); i < panels.size(); ++i) {
     tell_progress(c, i, journey.log);
     tested.push_back(test(c, panels[i], c.schedule.compactions[i], journey.log));
+    write_glue_lines(journey, panels[i], tested);
     keep(journey, tested);
   }
   double wall_s = 0;

@@ -10,6 +10,7 @@
 #include "strandlab/case/keys.hpp"
 #include "strandlab/case/write.hpp"
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/input_errors.hpp"
 #include "strandlab/core/text.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -327,6 +328,31 @@ TEST(CaseRead, BadInputIsAnsweredByFileLineKeyGivenAndAllowed) {
 }
 
 // Sizes that no mat is formed of are refused where they are written, by the range that the reference shows.
+// Each mistake of a file has its line, given and allowed; keys of a section that is misspelt are not told one by one,
+// and rules between keys wait until every key is right.
+TEST(CaseRead, AllMistakesAreToldAtOnce) {
+  const std::string text =
+      "[mat]\nlenght_mm = 3\nrows = 3\n[pres]\nspeed = 1\n[press]\nfriction = -1\ndensities_kg_m3 = [500]\n"
+      "compactions = [0.2]\n";
+  try {
+    case_from_text(text, "panel.toml", {"grid.courant=x"});
+    FAIL() << "no error";
+  } catch (const InputErrors& e) {
+    ASSERT_EQ(e.messages.size(), 5U) << e.what();
+    for (const auto& [i, opening] : {std::pair{0, "panel.toml:2: unknown key mat.lenght_mm; did you mean length_mm?"},
+                                     {1, "panel.toml:4: unknown section [pres]; did you mean press?"},
+                                     {2, "panel.toml:3: mat.rows = 3: must be a list of texts"},
+                                     {3, "panel.toml:7: press.friction = -1: must be from 0 to 10"},
+                                     {4, "--set grid.courant=x: grid.courant = \"x\": must be a number"}})
+      EXPECT_EQ(e.messages[static_cast<std::size_t>(i)].rfind(opening, 0), 0U)
+          << e.messages[static_cast<std::size_t>(i)];
+  }
+  EXPECT_NE(refusal("[press]\ndensities_kg_m3 = [500]\ncompactions = [0.2]").find("contradict"), std::string::npos);
+  std::string many = "[mat]\n";
+  for (int i = 0; i < 30; ++i) many += "a" + std::to_string(i) + " = 1\n";
+  EXPECT_NE(refusal(many).find("... and 10 more"), std::string::npos);
+}
+
 TEST(CaseRead, SizesOfAMatThatCannotBeFormedAreRefusedWhereTheyStand) {
   for (const auto* key : {"length_mm", "layer_thickness_mm"}) {
     const auto message = refusal(std::string("[mat]\n") + key + " = 1e-4");

@@ -83,6 +83,50 @@ TEST(Vtu, SectionHasOneQuadPerPoint) {
   EXPECT_EQ((std::vector<float>(velocity.end() - 3, velocity.end())), (std::vector<float>{2, -0.5F, 0}));
 }
 
+// Kinds and materials by name, displacements since the panel was formed, the laid angle under a name of its own.
+TEST(Vtu, SaysWhatItShows) {
+  const TemporaryFolder folder;
+  Panel<2> formed;
+  formed.initial_thickness_mm = 2;
+  formed.top_mm = 2;
+  formed.strands = {block<2>({2, 1}, {0.5, 0.5}, {0, 0}), block<2>({2, 1}, {0.5, 0.5}, {0, 1})};
+  formed.strands[0].kind = "surface";
+  formed.strands[1].kind = "a<b";
+  formed.strands[1].angle_deg = 30;
+  auto panel = formed;
+  panel.top_mm = 1.5;
+  panel.time_s = 0.002;
+  for (auto& x : panel.strands[1].points.x) x += Vec<2>(0.25, -0.5);
+  write_annotated_vtu<2>(panel, {&formed, {{"surface", "oak"}}}, folder / "p.vtu");
+  const std::string file = contents(folder / "p.vtu");
+  const auto moved = array_of<float>(file, "displacement_mm");
+  ASSERT_EQ(moved.size(), 2U * 6U * 3U);
+  EXPECT_EQ((std::vector<float>(moved.begin(), moved.begin() + 3)), (std::vector<float>{0, 0, 0}));
+  EXPECT_EQ((std::vector<float>(moved.end() - 3, moved.end())), (std::vector<float>{0.25F, -0.5F, 0}));
+  EXPECT_EQ(array_of<std::int32_t>(file, "kind"), (std::vector<std::int32_t>{0, 0, 1, 1}));
+  EXPECT_EQ(array_of<float>(file, "laid_angle_deg"), (std::vector<float>{0, 0, 30, 30}));
+  for (const char* part :
+       {"Name=\"compaction\" NumberOfTuples=\"1\" format=\"ascii\">0.25<",
+        "Name=\"time_ms\" NumberOfTuples=\"1\" format=\"ascii\">2<",
+        "Name=\"kinds\" NumberOfTuples=\"2\" format=\"ascii\">115 117 114 102 97 99 101 0 97 60 98 0 <",
+        "Name=\"materials\" NumberOfTuples=\"2\" format=\"ascii\">111 97 107 0 0 <"})
+    EXPECT_NE(file.find(part), std::string::npos) << part;
+}
+
+// Two strands meet twice, with a gap between: two lines. Points of other strands begin a line of their own.
+TEST(Vtu, GlueLinesAreSegmentsBetweenTheirPoints) {
+  const TemporaryFolder folder;
+  std::vector<GlueLinePoint> points;
+  for (const double x : {0.0, 1.0, 2.0, 9.0, 10.0}) points.push_back({0, 1, {x, 1}, x});
+  points.push_back({1, 2, {10, 2}, 7});
+  write_glue_vtu(points, folder / "g.vtu");
+  const std::string file = contents(folder / "g.vtu");
+  EXPECT_NE(file.find("<Piece NumberOfPoints=\"6\" NumberOfCells=\"3\">"), std::string::npos);
+  EXPECT_EQ(array_of<std::int64_t>(file, "connectivity"), (std::vector<std::int64_t>{0, 1, 1, 2, 3, 4}));
+  EXPECT_EQ(array_of<std::int32_t>(file, "strand_b"), (std::vector<std::int32_t>{1, 1, 1}));
+  EXPECT_EQ(array_of<float>(file, "slip_mm_per_strain"), (std::vector<float>{0, 1, 2, 9, 10, 7}));
+}
+
 TEST(Vtu, PanelHasOneHexahedronPerPoint) {
   const TemporaryFolder folder;
   Panel<3> panel;

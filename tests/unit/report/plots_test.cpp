@@ -58,12 +58,39 @@ TEST(Plots, ArePngFiles) {
   EXPECT_TRUE(drawn.warnings.empty()) << drawn.warnings.front();
   EXPECT_EQ(drawn.pictures.size(), pictures.size());
   for (const auto& picture : pictures) {
-    const auto together = test::contents(picture.png);
+    const auto together = test::contents(picture.file);
     EXPECT_EQ(together.substr(0, 4), kPngSignature);
     EXPECT_TRUE(draw({picture}).warnings.empty());
-    EXPECT_EQ(test::contents(picture.png), together) << picture.png;
+    EXPECT_EQ(test::contents(picture.file), together) << picture.file;
   }
   EXPECT_EQ(folder.files(), 6U);  // no scripts are left
+}
+
+// One gnuplot prints several pictures of any format, each whole and in its own file, and the same each time.
+TEST(Plots, ForPaperArePdfSvgAndPng) {
+  const TemporaryFolder folder;
+  const auto begins = [&](PaperFormat format, const std::string& name, const std::string& first, const std::string& last) {
+    const Paper paper{format, 84, "sans", 8};
+    const std::vector<Picture> pictures{{compaction_plot(moduli(), "tension"), folder / ("a" + name)},
+                                        {compliance_plot(moduli(), "tension"), folder / ("b" + name)}};
+    const auto drawn = draw(pictures, {}, paper);
+    EXPECT_TRUE(drawn.warnings.empty()) << drawn.warnings.front();
+    for (const auto& picture : pictures) {
+      const auto text = test::contents(picture.file);
+      EXPECT_EQ(text.substr(0, first.size()), first) << picture.file;
+      EXPECT_NE(text.rfind(last), std::string::npos) << picture.file;
+    }
+  };
+  begins(PaperFormat::kPdf, ".pdf", "%PDF", "%%EOF");
+  begins(PaperFormat::kSvg, ".svg", "<?xml", "</svg>");
+  begins(PaperFormat::kPng, ".png", kPngSignature, "IEND");
+}
+
+// The width is that of the paper: 84 mm are 238.1 points of 1/72 inch, 992 pixels of 1/300 inch, 317 of CSS.
+TEST(Plots, ForPaperHaveItsWidth) {
+  EXPECT_NE(gnuplot_script(line(), Paper{PaperFormat::kPdf, 84, "sans", 8}).find("size 8.4cm"), std::string::npos);
+  EXPECT_NE(gnuplot_script(line(), Paper{PaperFormat::kPng, 84, "sans", 8}).find("size 992,"), std::string::npos);
+  EXPECT_NE(gnuplot_script(line(), Paper{PaperFormat::kSvg, 84, "sans", 8}).find("size 317,"), std::string::npos);
 }
 
 // gnuplot goes on behind a mistake, and no picture goes into the file of another.

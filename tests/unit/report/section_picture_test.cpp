@@ -133,6 +133,25 @@ TEST(SectionPicture, ExaggerationStretchesTheHeightOnly) {
   EXPECT_NEAR(three.height() - one.height(), 2 * 1000 * (1 - 11.2 / 85) * 4 / 20, 2);
 }
 
+// 84 mm are 992 pixels of 1/300 inch, which are 238.08 points.
+TEST(SectionPicture, ForPaperHasItsWidth) {
+  const TemporaryFolder folder;
+  const auto panel = panel_of({flat_strand(0, 20, 0, 4, 40, 6)}, 20, 4);
+  PictureOptions options;
+  const auto drawn = [&](PaperFormat format, const char* name) {
+    options.paper = Paper{format, 84, "sans", 8};
+    draw_section(panel, options, folder / name);
+    return test::contents(folder / name);
+  };
+  drawn(PaperFormat::kPng, "a.png");
+  EXPECT_EQ(Image(folder / "a.png").width(), 992);
+  EXPECT_NE(drawn(PaperFormat::kSvg, "a.svg").find("width=\"238.08"), std::string::npos);
+  const auto pdf = drawn(PaperFormat::kPdf, "a.pdf");
+  EXPECT_EQ(pdf.substr(0, 4), "%PDF");
+  EXPECT_NE(pdf.find("238.08"), std::string::npos) << "of the page's box";
+  EXPECT_TRUE(pdf == drawn(PaperFormat::kPdf, "b.pdf")) << "no time of the day is in it";
+}
+
 TEST(SectionPicture, OptionsOutOfRangeAreNamed) {
   const TemporaryFolder folder;
   const auto panel = panel_of({flat_strand(0, 10, 0, 2, 40, 6)}, 20, 2);
