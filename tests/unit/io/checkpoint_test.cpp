@@ -112,6 +112,7 @@ class Bits {
  public:
   void add(double value) { bits_.push_back(std::bit_cast<std::uint64_t>(value)); }
   void add(long long value) { bits_.push_back(static_cast<std::uint64_t>(value)); }
+  void add(int value) { add(static_cast<long long>(value)); }
   template <class Derived>
   void add(const Eigen::MatrixBase<Derived>& matrix) {
     for (const double value : matrix.reshaped()) add(value);
