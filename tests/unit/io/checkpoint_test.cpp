@@ -244,7 +244,7 @@ TEST_F(CheckpointFile, EveryDatasetSaysItsUnit) {
   H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, visit, &count);
   H5Fclose(file);
   EXPECT_EQ(count.datasets,
-            6 + 3 + 14 + 12 + 18 + 14 + 14 + 6);  // frame, strands, points, engine, records, pending, press
+            6 + 3 + 14 + 12 + 20 + 14 + 14 + 6);  // frame, strands, points, engine, records, pending, press
   EXPECT_EQ(count.labelled, count.datasets);
 }
 
