@@ -228,13 +228,13 @@ press::Outcome<3> press_plate(const FormedPlate& formed, press::Sink<3> keep,
 TestedPlateState test_plate(const FormedPlate& formed, const Panel<3>& panel, double compaction, Observer& observer) {
   TestedPlateState state;
   state.compaction = compaction;
-  const Stopwatch watch(state.wall_s);
   const auto options = cases::plate_options(formed.c);
   const auto size = vtest::size_of_tests(panel, options);
   observer.say(fmt::format("test: compaction {}: {} unknowns, about {:.1f} GB of memory", compaction, size.unknowns,
                            size.memory_GB));
   refuse_too_large(size);
   try {
+    const Stopwatch watch(state.wall_s);
     state.result = vtest::measure(panel, options, [&observer] { stop_if_cancelled(observer); });
   } catch (const statics::OutOfMemory&) {
     throw;  // nothing of the panel's: with more memory the run goes on from here
@@ -243,11 +243,10 @@ TestedPlateState test_plate(const FormedPlate& formed, const Panel<3>& panel, do
   } catch (const RunError& e) {
     state.not_testable = e.what();
   }
-  if (!state.not_testable.empty()) {
+  if (state.not_testable.empty())
+    tell(state.result, observer);
+  else
     observer.warn(fmt::format("compaction {}: this panel cannot be tested: {}", compaction, state.not_testable));
-    return state;
-  }
-  tell(state.result, observer);
   return state;
 }
 

@@ -15,7 +15,12 @@ namespace {
 
 constexpr double kWindow = 40;  // mm, far beyond the strands
 
-press::Outcome<3> press_free(const std::vector<Plank>& planks, bool yields, double compaction, double aspect = 3) {
+struct PressedPlanks {
+  std::vector<press::Record> records;
+  Panel<3> panel;
+};
+
+PressedPlanks press_free(const std::vector<Plank>& planks, bool yields, double compaction, double aspect = 3) {
   const auto panel = panel_of(planks, Vec<2>(kWindow, kWindow), 0.5 * aspect * kLayer / 3, yields);
   press::Resolution resolution;
   resolution.cell_aspect = aspect;
@@ -26,7 +31,12 @@ press::Outcome<3> press_free(const std::vector<Plank>& planks, bool yields, doub
   schedule.ramp_time_fraction = 0.2;
   schedule.compactions = {compaction};
   schedule.record_interval_compaction = 0.002;
-  return press::press<3>(panel, schedule, press::setup(panel, resolution, mpm::Side::kFree, options), {});
+  PressedPlanks pressed;
+  press::Sink<3> sink;
+  sink.snapshot = [&](const Panel<3>& then, int) { pressed.panel = then; };
+  const auto setup = press::setup(panel, resolution, mpm::Side::kFree, options);
+  pressed.records = press::press<3>(panel, schedule, setup, sink).records;
+  return pressed;
 }
 
 // One strand between smooth platens, elastic: the stress of an independent run of the same method (101.93, 101.92 and
@@ -60,6 +70,25 @@ TEST(TurnedStrand, CrossedPairsPressAlikeAtAnyAngle) {
   }
   report("crossed pair turned by 45 degrees, stress at C = 0.09 over that along the grid", stress[1] / stress[0],
          near(1, 0.03));
+}
+
+// A corner .2 mm from the long edge of another strand of the layer: it presses as 6 mm away, and neither leaves the
+// layer's height.
+TEST(TurnedStrand, LeavesItsNeighbourInTheLayerAlone) {
+  constexpr double kReach = 6.364;  // mm, from the middle of a strand turned by 45 degrees to its lowest corner
+  const auto press_apart = [](double gap) {
+    return press_free({{0, 20, 12, 12, 6, 0}, {0, 20, 15 + gap + kReach, 12, 6, 45}}, false, 0.06);
+  };
+  const auto close = press_apart(0.2), apart = press_apart(6);
+  report("strand with its corner .2 mm from another's edge, stress at C = 0.05 over that 6 mm apart",
+         stress_about(close.records, 0.05, 0.01) / stress_about(apart.records, 0.05, 0.01), near(1, 2e-4));
+  double worst = 0;
+  for (const auto& strand : close.panel.strands) {
+    double height = 0;
+    for (const auto& x : strand.points.x) height += x[2] / static_cast<double>(strand.size());
+    worst = std::max(worst, std::abs(height / close.panel.top_mm - 0.5));
+  }
+  report("the two strands, mean height off the middle of the layer over its thickness", worst, below(5e-4));
 }
 
 std::vector<mpm::Body<3>> body_at(double angle_deg) {
