@@ -27,13 +27,17 @@ void add_step(CLI::App& app, const char* name, const char* description, const St
 }  // namespace
 
 void add_mat(CLI::App& app) {
-  add_step(app, "mat", "form the mat of a case: mat.json",
-           [](const auto& c, const auto& place, auto& observer) { run::form(c, place, observer); });
+  add_step(app, "mat", "form the mat of a case: mat.json", [](const auto& c, const auto& place, auto& observer) {
+    cases::has_plate_mat(c) ? run::plate(c, place, observer, cases::Step::kMat) : void(run::form(c, place, observer));
+  });
 }
 
 void add_press(CLI::App& app) {
   add_step(app, "press", "press the mat of a case: press.csv, panels, pictures",
-           [](const auto& c, const auto& place, auto& observer) { run::press(c, place, observer); });
+           [](const auto& c, const auto& place, auto& observer) {
+             cases::has_plate_mat(c) ? run::plate(c, place, observer, cases::Step::kPress)
+                                     : run::press(c, place, observer);
+           });
 }
 
 void add_test(CLI::App& app) {

@@ -1,4 +1,4 @@
-"""A mat file in 3D, or mat.width_mm, makes the case a plate: tested as it lies, moduli.csv and abd.csv; pressing it is refused."""
+"""A mat file in 3D, or mat.width_mm, makes the case a plate: formed, pressed and tested; moduli.csv and abd.csv."""
 
 import csv
 import json
@@ -98,12 +98,45 @@ def formed():
     check(pathlib.Path("formed/mat.json").read_bytes() == pathlib.Path("formed_mat/mat.json").read_bytes(), "run tests the mat that form makes")
 
 
+PRESSING = ["--set", "grid.cells_through_strand=2", "--set", "grid.cell_aspect=6", "--set", "test.element_length_mm=2", "--set", "glue.compliance_t_mm_per_MPa=[0.0105]", "--set", "run.threads=2"]
+HILL = [word for kind in ("surface", "core") for word in ("--set", f"kinds.{kind}.law=hill")]
+
+
+def pressed():
+    settings = [*PRESSING, *HILL, "--set", "press.compactions=[0.3,0.5]"]
+    told = strandlab("check", "formed.toml", *settings)
+    check(told.returncode == DONE and "particles:" in told.stdout and "unknowns" in told.stdout, f"check of a plate: {told.stderr}")
+    ran = strandlab("run", "formed.toml", *settings, "-o", "pressed")
+    check(ran.returncode == DONE, f"run of a plate that is pressed: {ran.stderr}")
+    steps = json.loads(pathlib.Path("pressed/run.json").read_text(encoding="utf-8"))["steps"]
+    check(2 <= steps["press"]["most_fields"] < 24, "run.json says how many fields met at a node")
+    moduli = rows("pressed/moduli.csv")
+    check([float(row["compaction"]) for row in moduli] == [0.3] * 9 + [0.5] * 9, "tests at each compaction")
+    density = [float(row["density_kg_m3"]) for row in moduli]
+    check(abs(density[9] / density[0] - 0.7 / 0.5) < 1e-9, "density follows compaction")
+    check([float(row["compaction"]) for row in rows("pressed/abd.csv")] == [0.3, 0.5], "abd.csv: a line for each compaction")
+    stress = [float(row["stress_MPa"]) for row in rows("pressed/press.csv")]
+    check(stress[-1] > 1 and abs(stress[0]) < 0.1, f"press.csv: the platens feel the mat: {stress[-1]} MPa")
+    for name in ("panels/panel_0.3.h5", "panels/panel_0.5.h5", "paraview/panel_0.5.vtu", "paraview/panel.pvd"):
+        check(pathlib.Path("pressed", name).exists(), name)
+    pathlib.Path("pressed/moduli.csv").unlink()
+    again = strandlab("run", "formed.toml", *settings, "-o", "pressed")
+    check(again.returncode == DONE and "press:" not in again.stdout, "a finished pressing is not repeated")
+    check(rows("pressed/moduli.csv") == moduli, "its tests give the same again")
+    for name, half in (("mirrored", "mirror"), ("half", "keep")):
+        ran = strandlab("run", "formed.toml", *PRESSING, *HILL, "--set", "press.compactions=[0.5]", "--set", f"press.half={half}", "-o", name)
+        check(ran.returncode == DONE, f"press.half = {half}: {ran.stderr}")
+    abd = {name: rows(f"{name}/abd.csv")[0] for name in ("mirrored", "half")}
+    check(float(abd["mirrored"]["ABD_11"]) > 1.5 * float(abd["half"]["ABD_11"]), "half a panel and its mirror image carry more than the half")
+    coupling = abs(float(abd["mirrored"]["ABD_14"])) / (float(abd["mirrored"]["ABD_11"]) * float(abd["mirrored"]["ABD_44"])) ** 0.5
+    check(coupling < 0.01, f"a panel that is its own mirror image does not bend when it is pulled: {coupling}")
+
+
 def refused():
-    for settings in (["press.compactions=[0,0.2]"], []):
-        sets = [word for setting in settings for word in ("--set", setting)]
-        expect_bad_input(["run", "osb.toml", "--set", "mat.file=mat.json", *sets], ["mat.json", "pressing in 3D is not there yet"])
-    for command in ("press", "mat", "check"):
-        expect_bad_input([command, "osb.toml", "--set", "mat.file=mat.json"], ["mat.json", "pressing in 3D is not there yet"])
+    hot = ["--set", "hotpress.mechanics=strands"]
+    expect_bad_input(["run", "osb.toml", "--set", "mat.file=mat.json", *hot], ["plates are pressed cold"])
+    expect_bad_input(["run", "formed.toml", "--set", "mat.forming=draped"], ["layers only: this one is draped"])
+    expect_bad_input(["hotpress", "osb.toml", "--set", "mat.file=mat.json"], ["mat.json", "a mat in 3D"])
     write_mat("strips.json", [[(3, 6, 8, 4, 0)], [(9, 6, 8, 4, 0)]])
     strips = strandlab("run", "osb.toml", "--set", "mat.file=strips.json", *SETTINGS, "-o", "strips")
     check(strips.returncode == BAD_INPUT and "not connected across y" in strips.stderr, f"strips are no plate: {strips.stderr}")
@@ -114,5 +147,6 @@ with scratch():
     periodic()
     cut()
     formed()
+    pressed()
     refused()
 finish()

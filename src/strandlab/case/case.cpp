@@ -151,10 +151,9 @@ mat::Mat make_mat(const Case& c) {
   const auto& place = c.mat_file.empty() ? c.places.rows : c.places.mat_file;
   try {
     if (has_plate_mat(c)) {
-      throw InputError(
-          fmt::format("{}: a mat in 3D: strandlab run and test measure it as it lies, with press.compactions = [0]; "
-                      "pressing in 3D is not there yet",
-                      c.mat_file.empty() ? fmt::format("mat.width_mm = {}", c.plate.width_mm) : c.mat_file));
+      throw InputError(fmt::format(
+          "{}: a mat in 3D: strandlab form, run, press and test take it, what else there is needs a section",
+          c.mat_file.empty() ? fmt::format("mat.width_mm = {}", c.plate.width_mm) : c.mat_file));
     }
     if (!c.mat_file.empty()) return mat::read(c.mat_file, kind_names(c));
     const auto rows = layup(c);
@@ -179,16 +178,20 @@ double density_kg_m3(const Case& c, const mat::Mat& mat, double compaction) {
 }
 
 void settle_states(Case& c, const mat::Mat& mat) {
-  auto& compactions = c.schedule.compactions;
   if (presses_hot(c)) {
-    compactions = {std::round(kStates * closed_compaction(c, mat)) / kStates};
+    c.schedule.compactions = {std::round(kStates * closed_compaction(c, mat)) / kStates};
     return;
   }
+  settle_states(c, density_kg_m3(c, mat, 0), mat.thickness_mm());
+}
+
+void settle_states(Case& c, double formed_kg_m3, double thickness_mm) {
+  auto& compactions = c.schedule.compactions;
   compactions = c.states.compactions;
   if (!compactions.empty()) return;
   const bool by_density = c.states.thicknesses_mm.empty();
   const auto& asked = by_density ? c.states.densities_kg_m3 : c.states.thicknesses_mm;
-  const double formed = by_density ? density_kg_m3(c, mat, 0) : mat.thickness_mm();
+  const double formed = by_density ? formed_kg_m3 : thickness_mm;
   const auto* unit = by_density ? "kg/m3" : "mm";
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const auto fail = [&](const std::string& reason) {

@@ -51,6 +51,12 @@ struct CasePlaces {
   std::string rows, mat_file, bondline_file, bondline_group, states;
 };
 
+// Default of grid.cell_aspect in 3D: up to three times its height a cell's length shortens the time step.
+inline constexpr double kPlateCellAspect = 4;
+// Whether the rows of a plate are all of it, or its half from the middle plane up, which is pressed alone; then the
+// kept panels are that half and its mirror image, or the half.
+enum class PressedHalf { kWhole, kMirrored, kKept };
+
 inline constexpr int kPointsPerCell = 2;  // material points per cell and axis, as press::Resolution has it
 
 // The defaults are the main job: an OSB mat of 20 rows pressed to 640 kg/m3.
@@ -70,6 +76,7 @@ struct Case {
   HotPressSettings hotpress;
   KeptStates states;
   press::Schedule schedule;  // its compactions are those of settle_states()
+  PressedHalf half = PressedHalf::kWhole;
   mpm::Side sides = mpm::Side::kRoller;
   press::Resolution grid;
   mpm::Options mpm;  // its thread count is set from `threads` when a run starts
@@ -133,6 +140,8 @@ double density_kg_m3(const Case& c, const mat::Mat& mat, double compaction);
 // densities or thicknesses; for a mat that is pressed hot the one at which its schedule has closed. Throws InputError
 // for a state that the mat is beyond as formed, and for two states that round to one compaction.
 void settle_states(Case& c, const mat::Mat& mat);
+// The same of a mat that is pressed cold, of that density (kg/m^3) and thickness as formed.
+void settle_states(Case& c, double formed_kg_m3, double thickness_mm);
 // One line for each of the case's materials whose constants follow from a species' ratios: which, from what, and where
 // the ratios are from; or of which only E_L was changed: which constants did not follow it.
 std::vector<std::string> derived_constants(const Case& c);

@@ -184,6 +184,11 @@ void add_mat_and_kinds(Table& t) {
   t.insert_after("mat.length_mm",
                  of_dimensions(3, keys_of_part(
                                       "mat", mat::plate_options(), [](auto& c) -> auto& { return c.plate; })));
+  t.at("mat.width_mm").set = [set = t.at("mat.width_mm").set](Case& c, const std::string& name, const Value& value) {
+    const bool was_plate = is_plate(c);
+    set(c, name, value);
+    if (is_plate(c) && !was_plate) c.grid.cell_aspect = kPlateCellAspect;  // unless the case gives it
+  };
   t.at("mat.file").names_file = true;
   t.add(keys_of(
       "kinds.*", kind_settings(), [](auto& c, const std::string& n) -> auto& { return kind_named(c, n); }));
@@ -219,6 +224,7 @@ void add_press(Table& t) {
   t.insert_after("press.speed_m_s", keys_of_part(
                                         "press", state_settings(), [](auto& c) -> auto& { return c.states; }));
   t.insert_after("press.compactions", keys_of_case("press", side_settings()));
+  t.insert_after("press.sides", of_dimensions(3, keys_of_case("press", half_settings())));
   t.add(keys_of_part(
       "press", mpm::contact_options(), [](auto& c) -> auto& { return c.mpm; }));
 }

@@ -85,6 +85,15 @@ const std::vector<Ready>& table() {
        "[mat]\nlength_mm = 60\nrows = [\"surface*8\", \"core*18\", \"surface*8\"]\n"
        "[kinds.surface]\nangle_sd_deg = 25\nyield_factor = 1\n[kinds.core]\nangle_sd_deg = 25\nyield_factor = 1\n"
        "[hotpress.resin]\nface_kinds = [\"surface\"]\n"},
+      {"osb3d",
+       "Three-layer OSB in three dimensions: 60 x 60 mm of a panel that goes on for ever, strands of 40 x 8 mm, "
+       "pressed to 60 %.\n"
+       "Strands yield by Hill's law, as in Le (2010): do not believe the pressures (docs/panels3d.md).",
+       "[mat]\nlength_mm = 60\nwidth_mm = 60\nrows = [\"surface*2\", \"core*4\", \"surface*2\"]\n"
+       "[kinds.surface]\nlength_mm = 40\nwidth_mm = 8\nyield_factor = 1\nlaw = \"hill\"\n"
+       "[kinds.core]\nlength_mm = 40\nwidth_mm = 8\nyield_factor = 1\nlaw = \"hill\"\n"
+       "[press]\ncompactions = [0.5, 0.6]\n[grid]\ncell_aspect = 6\n"
+       "[glue]\ncompliance_t_mm_per_MPa = [0, 0.0105, 0.05]\n[test]\nelement_length_mm = 2\n"},
       {"osl", pressed("Oriented strand lumber: 20 rows of strands along the panel, pressed to 640 kg/m3."),
        fmt::format("[mat]\n{}", kAlong)},
       {"plywood", pressed("Plywood: the rows of the OSB case without gaps, pressed to 640 kg/m3."),

@@ -136,6 +136,19 @@ std::vector<Declaration<Case>> side_settings() {
                          mpm::side_names(), side_name, mpm::side_from_name)};
 }
 
+std::vector<Declaration<Case>> half_settings() {
+  static const std::vector<std::string> names{"no", "mirror", "keep"};
+  return {declare_choice(
+      "half",
+      "3D: mat.rows are the upper half of a symmetric plate, from its middle plane up, and are pressed against that "
+      "plane; "
+      "panels are kept with their mirror image (mirror) or as the half (keep)",
+      &Case::half, names, [](PressedHalf half) { return names[static_cast<std::size_t>(half)]; },
+      [](const std::string& text) {
+        return static_cast<PressedHalf>(std::find(names.begin(), names.end(), text) - names.begin());
+      })};
+}
+
 std::vector<Declaration<Case>> bondline_settings() {
   return {
       declare("from_bondline", "", kAny,

@@ -66,7 +66,7 @@ static_assert(sizeof(press::Record) == kRecordFields.size() * sizeof(double), "a
 
 template <class State, class Visit>
 void visit_engine(State& state, const Visit& visit) {
-  auto& [step, time, time_step, bottom, top, energies, unconverged_contacts] = state;
+  auto& [step, time, time_step, bottom, top, energies, unconverged_contacts, most_fields, cell_stretch] = state;
   auto& [bottom_position, bottom_velocity] = bottom;
   auto& [top_position, top_velocity] = top;
   auto& [kinetic, elastic, plastic, friction, contact, filter, softening, damping, platen_work, external_work] =
@@ -90,6 +90,9 @@ void visit_engine(State& state, const Visit& visit) {
   visit("external_work_mJ", Label{"mJ", "work of tractions and gravity"}, external_work);
   visit("unconverged_contacts", Label{"1", "nodes whose contact still changed after the last pass, over all steps"},
         unconverged_contacts);
+  visit("most_fields", Label{"1", "velocity fields that met at a node so far"}, most_fields);
+  visit("cell_stretch", Label{"1", "height of the cells over that at the start, where it follows the strands"},
+        cell_stretch);
 }
 
 // Where the press stands, besides its panel, engine and records.
@@ -372,9 +375,10 @@ void write_records(Writer& out, const std::string& group, std::span<const press:
   }
 }
 
-// Older versions did not write it; there it is 0.
+// Older versions did not write it; there it is as in a state at the start.
 bool is_new(std::string_view name) {
-  return name == "unconverged_contacts" || name == "softening_mJ" || name == "damping_mJ";
+  return name == "unconverged_contacts" || name == "softening_mJ" || name == "damping_mJ" || name == "most_fields" ||
+         name == "cell_stretch";
 }
 
 std::vector<press::Record> read_records(const Reader& in, const std::string& group) {

@@ -40,9 +40,7 @@ std::vector<Declaration<PlateLayup>> plate_options() {
         [](auto& layup) -> auto& { return layup.sequential; }, option);
   };
   return {declare("width_mm", "mm", {.lo = kSmallestSize_mm, .hi = 1e5, .zero = true},
-                  "width of a plate (3D); the key makes a 3D case, whose mat is formed by `strandlab form` "
-                  "(docs/panels3d.md); 0: a section",
-                  &P::width_mm),
+                  "width of a plate (3D); the key makes a 3D case (docs/panels3d.md); 0: a section", &P::width_mm),
           declare_named("forming",
                         "3D: flat layers of strands that do not overlap (random sequential addition), or strands laid "
                         "anywhere, each draped on those below",

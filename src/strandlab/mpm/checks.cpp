@@ -25,6 +25,12 @@ void check_grid(const Grid<Dim>& grid) {
       throw InputError(fmt::format("grid: cell size {} mm on axis {}; it must be positive", grid.cell[a], a));
     if (!(grid.hi[a] > grid.lo[a])) throw InputError(fmt::format("grid: empty window on axis {}", a));
     if (a == Dim - 1) continue;
+    if ((grid.sides[a][0] == Side::kPeriodic) != (grid.sides[a][1] == Side::kPeriodic))
+      throw InputError(fmt::format("grid: one side on axis {} is periodic and the other is not", a));
+    if (const double cells = (grid.hi[a] - grid.lo[a]) / grid.cell[a];
+        grid.sides[a][0] == Side::kPeriodic && std::abs(cells - std::round(cells)) > 1e-6) {
+      throw InputError(fmt::format("grid: the period on axis {} must be whole cells, it is {}", a, cells));
+    }
     for (int side = 0; side < 2; ++side) {
       if (grid.sides[a][side] != Side::kRoller) continue;
       const double plane = ((side == 0 ? grid.lo[a] : grid.hi[a]) - grid.origin[a]) / grid.cell[a];

@@ -32,6 +32,8 @@ constexpr double kFarInAStep = 0.1;  // cells; particles that move further in a 
 // at other steps (tests/verification/press/determinism_test.cpp). A step that filters looks at positions after it too.
 constexpr double kMaxDrift = 0.45;
 constexpr double kFilterDrift = 0.1;
+// Change of the strands' mean stretch from which the cells' height follows it. Judgement: patches are laid again then.
+constexpr double kStretchStep = 0.005;
 
 double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -91,8 +93,18 @@ struct Engine<Dim>::Impl {
   }
 
   double stretch() const {  // of the cells' height against grid.cell
-    if (!grid.follow_platens || !has_platens) return 1;
+    if (grid.follow == Follow::kStrands) return state.cell_stretch;
+    if (grid.follow == Follow::kNothing || !has_platens) return 1;
     return (state.top.position - state.bottom.position) / (grid.hi[Dim - 1] - grid.lo[Dim - 1]);
+  }
+
+  std::array<int, 2> periods() const {
+    std::array<int, 2> cells{};
+    for (int a = 0; a < Dim - 1; ++a) {
+      if (grid.sides[a][0] == Side::kPeriodic)
+        cells[a] = static_cast<int>(std::lround((grid.hi[a] - grid.lo[a]) / grid.cell[a]));
+    }
+    return cells;
   }
 
   Step<Dim> this_step() const {
@@ -109,7 +121,7 @@ struct Engine<Dim>::Impl {
       }
     }
     const int y = Dim - 1;
-    if (grid.follow_platens && has_platens) {
+    if (grid.follow != Follow::kNothing && has_platens) {
       const double s = stretch();
       step.cell[y] = grid.cell[y] * s;
       step.origin[y] = state.bottom.position + (grid.origin[y] - grid.lo[y]) * s;
@@ -140,7 +152,7 @@ struct Engine<Dim>::Impl {
   void make_patches() {
     const Step<Dim> step = this_step();
     check_colouring(plan, bodies, step, state);
-    lay_patches(bodies, step, state, fields);
+    lay_patches(bodies, step, periods(), state, fields);
     pencil_results.resize(fields.table.pencils.size());
     views = views_of(bodies, fields);
     drift = {};
@@ -152,6 +164,7 @@ struct Engine<Dim>::Impl {
     // When particles are checked depends on the step and their motion alone, not on where patches were laid: a run that
     // goes on from a checkpoint fails where an undisturbed one does.
     if (state.step % kTimeStepInterval == 0) {
+      follow_strands();
       update_time_step();
       check_particles();
     }
@@ -186,6 +199,14 @@ struct Engine<Dim>::Impl {
     state.energies.filter = filtered_before;
     advance(step);
     state.time_step_s = time_step();  // for steps that follow
+  }
+
+  void follow_strands() {
+    if (grid.follow != Follow::kStrands) return;
+    const double now = mean_thickness_stretch(bodies);
+    if (std::abs(now / state.cell_stretch - 1) < kStretchStep) return;
+    state.cell_stretch = now;
+    patches_valid = false;
   }
 
   void update_time_step() {
@@ -230,7 +251,8 @@ struct Engine<Dim>::Impl {
     view.row_start = fields.table.row_start.data();
     view.slots = fields.table.slots.data();
     view.friction = options.friction;
-    view.platen_friction = options.platen_friction;
+    view.platen_friction[0] = options.smooth_bottom ? 0 : options.platen_friction;
+    view.platen_friction[1] = options.platen_friction;
     const auto count = static_cast<int>(fields.table.pencils.size());
     const double start = options.timed ? ticks() : 0;
     team.for_each(count, 8, [&](int p) {
@@ -238,7 +260,10 @@ struct Engine<Dim>::Impl {
       kernel->update_grid(fields.table.pencils[p], step, view, options.timed, pencil_results[p]);
     });
     PencilResult total{};
-    for (const auto& r : pencil_results) add(total, r);
+    for (const auto& r : pencil_results) {
+      add(total, r);
+      state.most_fields = std::max(state.most_fields, r.most_fields);
+    }
     if (total.overflow > 0) {
       const auto where =
           std::find_if(pencil_results.begin(), pencil_results.end(), [](auto& r) { return r.overflow > 0; });
@@ -289,11 +314,12 @@ struct Engine<Dim>::Impl {
     const double before = stretch();
     state.bottom.position += state.bottom.velocity * step.dt;
     state.top.position += state.top.velocity * step.dt;
-    // Grid lines that follow the platens move by at most the platens' own displacement.
-    if (grid.follow_platens) {
-      const double moved = std::max(std::abs(state.bottom.velocity), std::abs(state.top.velocity)) * step.dt;
-      drift[Dim - 1] += moved * step.inverse_cell[Dim - 1] + (before - stretch()) / before;
-    }
+    const double bottom = std::abs(state.bottom.velocity) * step.dt * step.inverse_cell[Dim - 1];
+    const double top = std::abs(state.top.velocity) * step.dt * step.inverse_cell[Dim - 1];
+    if (grid.follow == Follow::kPlatens)  // its lines, and images with them, move by at most the platens' displacement
+      drift[Dim - 1] += std::max(bottom, top) + (before - stretch()) / before;
+    else  // images of particles that a platen comes nearer to move twice as far; the grid may move with the bottom
+      drift[Dim - 1] += 2 * std::max(bottom, top) + bottom;
   }
 };
 

@@ -16,18 +16,23 @@
 
 namespace strandlab::mpm {
 
-enum class Side { kFree, kRoller };
+enum class Side { kFree, kRoller, kPeriodic };
+
+// What the height of the cells follows: the platens' gap, or the strands, the mean over all points of their stretch
+// through the thickness. Between them lie the voids of an open mat, which closes long before its strands do.
+enum class Follow { kNothing, kPlatens, kStrands };
 
 // Background grid: cells of size `cell`, a grid line through `origin` on each axis. Rollers sit on the planes lo and hi
-// (these must be grid planes). A particle behind one, or a whole window outside a free side, stops the run
-// (checks.hpp).
+// (these must be grid planes). Of periodic sides, both of an axis, the grid repeats after hi - lo, whole cells: bodies
+// keep their positions, which go on beyond the window, and meet the images of others and their own. A particle behind a
+// roller, or a whole window outside another side, stops the run (checks.hpp).
 template <int Dim>
 struct Grid {
   Vec<Dim> cell;                                 // mm
   Vec<Dim> origin;                               // mm
   Vec<Dim> lo, hi;                               // mm, the window; last axis: where platens may be
   std::array<std::array<Side, 2>, Dim> sides{};  // [axis][lo, hi]; the last axis is free (platens)
-  bool follow_platens = false;  // cell height keeps its ratio to the platen gap; `cell` is for the gap hi - lo
+  Follow follow = Follow::kNothing;              // `cell` is for the gap hi - lo, and for strands as formed
 };
 
 struct Options {
@@ -35,6 +40,7 @@ struct Options {
   double courant = 0.4;
   double friction = 0.3;         // between bodies, Coulomb
   double platen_friction = 0.3;  // body on platen
+  bool smooth_bottom = false;    // no friction on the bottom platen: it is a plane of symmetry
   int filter_interval = 0;       // steps between XPIC(2) filterings of the particle velocities; 0: pure FLIP
   bool timed = false;            // measure Timing per phase
 };
@@ -48,7 +54,8 @@ struct Timing {                 // 0 unless Options::timed
 template <int Dim>
 class Engine {
  public:
-  // Throws InputError for a grid that cannot be (rollers off the grid lines); of bodies outside the first step speaks.
+  // Throws InputError for a grid that cannot be (rollers off the grid lines, a period of broken cells); of bodies
+  // outside the first step speaks.
   Engine(const std::vector<Body<Dim>>& bodies, const Grid<Dim>& grid, const Options& options);
   ~Engine();
   Engine(Engine&&) noexcept;

@@ -126,8 +126,8 @@ void check_stretch(const std::vector<Particles<Dim>>& bodies, const EngineState&
 }
 
 template <int Dim>
-void lay_patches(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, const EngineState& state,
-                 Fields& fields) {
+void lay_patches(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, const std::array<int, 2>& periods,
+                 const EngineState& state, Fields& fields) {
   fields.patches.assign(bodies.size(), {});
   int node_records = 0, surface_records = 0;
   std::vector<Vec<Dim>> points;
@@ -148,7 +148,7 @@ void lay_patches(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& ste
   fields.surface.resize(static_cast<std::size_t>(surface_records) * kSurfaceRecord<Dim>);
   std::array<std::array<int, 2>, 2> walls{{{kNoWall, kNoWall}, {kNoWall, kNoWall}}};
   for (int a = 0; a < Dim - 1; ++a) walls[a] = {step.wall[a][0], step.wall[a][1]};
-  fields.table = tabulate(fields.patches, walls);
+  fields.table = tabulate(fields.patches, walls, periods);
 }
 
 template <int Dim>
@@ -238,8 +238,10 @@ std::size_t bytes(const Fields& fields) {
 
 template void check_stretch(const std::vector<Particles<2>>&, const EngineState&);
 template void check_stretch(const std::vector<Particles<3>>&, const EngineState&);
-template void lay_patches(const std::vector<Particles<2>>&, const Step<2>&, const EngineState&, Fields&);
-template void lay_patches(const std::vector<Particles<3>>&, const Step<3>&, const EngineState&, Fields&);
+template void lay_patches(const std::vector<Particles<2>>&, const Step<2>&, const std::array<int, 2>&,
+                          const EngineState&, Fields&);
+template void lay_patches(const std::vector<Particles<3>>&, const Step<3>&, const std::array<int, 2>&,
+                          const EngineState&, Fields&);
 template std::vector<BodyView<2>> views_of(std::vector<Particles<2>>&, Fields&);
 template std::vector<BodyView<3>> views_of(std::vector<Particles<3>>&, Fields&);
 template void impose_velocity(const Step<2>&, const std::function<Vec<2>(const Vec<2>&)>&, Fields&);

@@ -27,10 +27,11 @@ template <int Dim>
 std::array<std::array<int, 3>, 2> nearest_nodes(const Vec<Dim>& x, const Step<Dim>& step);
 
 // Patches around the particles, their mirror images in the platens and the face points where these are now; all records
-// become zero. Throws RunError where a face point is further from its particle than any wood bears.
+// become zero. `periods` as for tabulate(). Throws RunError where a face point is further from its particle than any
+// wood bears.
 template <int Dim>
-void lay_patches(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, const EngineState& state,
-                 Fields& fields);
+void lay_patches(const std::vector<Particles<Dim>>& bodies, const Step<Dim>& step, const std::array<int, 2>& periods,
+                 const EngineState& state, Fields& fields);
 
 // What the kernels see of each body; valid until the patches are laid again.
 template <int Dim>

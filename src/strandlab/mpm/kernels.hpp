@@ -47,13 +47,13 @@ struct Step {
 };
 inline constexpr int kNoWall = 1 << 30;
 
-// A dense patch of nodes, those of one field: `height` rows on each pencil, a line of nodes through the thickness. Node
-// (pencil, row) is record base[pencil] + row: every pencil has an offset of its own, so that its rows begin where the
-// body is. (A sketch is in docs/architecture.md.)
+// A dense patch of nodes, those of one field: rows on each pencil, a line of nodes through the thickness. Node (pencil,
+// row) is record base[pencil] + row: every pencil has an offset of its own, so that its rows begin where the body is.
+// (A sketch is in docs/architecture.md.)
 struct Patch {
   int first[2];  // first pencil along each lateral axis
   int count[2];  // pencils along each lateral axis (2D: count[1] = 1)
-  int height;
+  int height;    // most rows on a pencil
   const int* base;
 };
 
@@ -110,6 +110,7 @@ struct TileResult {
 // A body's nodes on one pencil.
 struct PencilField {
   int body;
+  int index[2];        // of its nodes; that of the pencil, or whole periods away
   int base;            // record index of row 0
   int row_lo, row_hi;  // rows stored: lo <= row < hi
   int faces;
@@ -141,7 +142,8 @@ struct GridView {
   const PencilField* fields;
   const int* row_start;  // per pencil row: range in `slots`
   const RowField* slots;
-  double friction, platen_friction;
+  double friction;            // of bodies on each other
+  double platen_friction[2];  // on the bottom and the top platen
 };
 
 struct PencilResult {
@@ -153,6 +155,7 @@ struct PencilResult {
   double contact_ticks;
   int overflow;     // nodes where more than kMaxFields fields meet
   int unconverged;  // nodes whose impulses still changed by a hundredth after kContactPasses
+  int most_fields;  // that meet at a node
 };
 
 template <int Dim>

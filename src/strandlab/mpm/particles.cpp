@@ -283,6 +283,17 @@ double mean_motion_energy(const std::vector<Particles<Dim>>& bodies) {
 }
 
 template <int Dim>
+double mean_thickness_stretch(const std::vector<Particles<Dim>>& bodies) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const auto& body : bodies) {
+    body.each([&](int, const Vec<Dim>&, const double* d) { sum += body.deformation(d).col(Dim - 1).norm(); });
+    count += body.where.size();
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 1;
+}
+
+template <int Dim>
 Vec<Dim> momentum(const std::vector<Particles<Dim>>& bodies) {
   Vec<Dim> total = Vec<Dim>::Zero();
   for (const auto& body : bodies) {
@@ -322,6 +333,7 @@ template double soften(Particles<2>&, const std::vector<double>&, const std::vec
 template double kinetic_energy(const std::vector<Particles<2>>&);
 template double elastic_energy(const std::vector<Particles<2>>&);
 template double mean_motion_energy(const std::vector<Particles<2>>&);
+template double mean_thickness_stretch(const std::vector<Particles<2>>&);
 template Vec<2> momentum(const std::vector<Particles<2>>&);
 template double mass(const std::vector<Particles<2>>&);
 template std::size_t bytes(const std::vector<Particles<2>>&);
@@ -333,6 +345,7 @@ template double soften(Particles<3>&, const std::vector<double>&, const std::vec
 template double kinetic_energy(const std::vector<Particles<3>>&);
 template double elastic_energy(const std::vector<Particles<3>>&);
 template double mean_motion_energy(const std::vector<Particles<3>>&);
+template double mean_thickness_stretch(const std::vector<Particles<3>>&);
 template Vec<3> momentum(const std::vector<Particles<3>>&);
 template double mass(const std::vector<Particles<3>>&);
 template std::size_t bytes(const std::vector<Particles<3>>&);

@@ -116,6 +116,8 @@ double elastic_energy(const std::vector<Particles<Dim>>& bodies);  // mJ
 template <int Dim>
 double mean_motion_energy(const std::vector<Particles<Dim>>& bodies);  // mJ, of each body's mean velocity
 template <int Dim>
+double mean_thickness_stretch(const std::vector<Particles<Dim>>& bodies);  // over all particles
+template <int Dim>
 Vec<Dim> momentum(const std::vector<Particles<Dim>>& bodies);  // t mm/s
 template <int Dim>
 double mass(const std::vector<Particles<Dim>>& bodies);  // t

@@ -76,8 +76,11 @@ void PatchStore::place(const Extents& e, int start) {
     patch.height = std::max(patch.height, hi[i] - lo[i] + 1);
   }
   base.resize(lo.size());
-  for (std::size_t i = 0; i < lo.size(); ++i) base[i] = start + static_cast<int>(i) * patch.height - lo[i];
-  records = static_cast<int>(lo.size()) * patch.height;
+  records = 0;
+  for (std::size_t i = 0; i < lo.size(); ++i) {
+    base[i] = start + records - lo[i];
+    records += hi[i] - lo[i] + 1;
+  }
   patch.base = base.data();
 }
 
@@ -96,21 +99,78 @@ PencilField::Rows rows_on(const PatchStore& w, const std::array<int, 2>& index) 
   return {w.base[p], w.lo[p], w.hi[p] + 1};
 }
 
-// The fields of one pencil, by body.
-void add_fields(const std::vector<BodyPatches>& bodies, const std::array<int, 2>& index, PencilTable& table) {
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    int p = 0;
-    if (!find_pencil(bodies[b].field, index, p)) continue;
-    PencilField field{};
-    field.body = static_cast<int>(b);
-    field.base = bodies[b].field.base[p];
-    field.row_lo = bodies[b].field.lo[p];
-    field.row_hi = bodies[b].field.hi[p] + 1;
-    field.faces = static_cast<int>(bodies[b].faces.size());
-    for (int f = 0; f < field.faces; ++f) field.face[f] = rows_on(bodies[b].faces[f], index);
-    for (int k = 0; k < 2; ++k) field.mirror[k] = rows_on(bodies[b].mirrors[k], index);
-    table.fields.push_back(field);
+// Pencils of the table along a lateral axis.
+struct PencilAxis {
+  int first = kEmptyLo, last = kEmptyHi, period = 0;
+  int count() const { return last - first + 1; }
+  int place_of(int node) const {  // in the table
+    if (period == 0) return node - first;
+    return (node % period + period) % period;
   }
+};
+
+std::array<PencilAxis, 2> pencil_axes(const std::vector<BodyPatches>& bodies, const std::array<int, 2>& periods) {
+  std::array<PencilAxis, 2> axes;
+  for (int a = 0; a < 2; ++a) {
+    for (const auto& body : bodies) {
+      axes[a].first = std::min(axes[a].first, body.field.patch.first[a]);
+      axes[a].last = std::max(axes[a].last, body.field.patch.first[a] + body.field.patch.count[a] - 1);
+    }
+    if (periods[a] > 0) axes[a] = {0, periods[a] - 1, periods[a]};
+  }
+  return axes;
+}
+
+struct BodyPencil {
+  int body, pencil;
+  std::array<int, 2> index;  // of its nodes
+};
+
+// Calls visit(pencil, index) for the pencils of a patch that have rows.
+template <class Visit>
+void each_pencil(const PatchStore& w, Visit visit) {
+  for (int p = 0; p < w.pencils(); ++p) {
+    if (w.hi[p] < w.lo[p]) continue;
+    visit(p, std::array<int, 2>{w.patch.first[0] + p % w.patch.count[0], w.patch.first[1] + p / w.patch.count[0]});
+  }
+}
+
+// Pencils of all bodies sorted by place in the table, at each by body: those of place i begin at start[i].
+struct SortedPencils {
+  std::vector<int> start;
+  std::vector<BodyPencil> pencils;
+};
+
+SortedPencils sort_pencils(const std::vector<BodyPatches>& bodies, const std::array<PencilAxis, 2>& axes) {
+  const auto place = [&](const std::array<int, 2>& index) {
+    return static_cast<std::size_t>(axes[1].place_of(index[1])) * axes[0].count() + axes[0].place_of(index[0]);
+  };
+  SortedPencils sorted;
+  sorted.start.assign(static_cast<std::size_t>(axes[0].count()) * axes[1].count() + 1, 0);
+  for (const auto& body : bodies)
+    each_pencil(body.field, [&](int, const std::array<int, 2>& index) { ++sorted.start[place(index) + 1]; });
+  for (std::size_t i = 1; i < sorted.start.size(); ++i) sorted.start[i] += sorted.start[i - 1];
+  sorted.pencils.resize(static_cast<std::size_t>(sorted.start.back()));
+  auto next = sorted.start;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    each_pencil(bodies[b].field, [&](int p, const std::array<int, 2>& index) {
+      sorted.pencils[static_cast<std::size_t>(next[place(index)]++)] = {static_cast<int>(b), p, index};
+    });
+  }
+  return sorted;
+}
+
+PencilField field_of(const BodyPencil& at, const BodyPatches& body) {
+  PencilField field{};
+  field.body = at.body;
+  for (int a = 0; a < 2; ++a) field.index[a] = at.index[a];
+  field.base = body.field.base[at.pencil];
+  field.row_lo = body.field.lo[at.pencil];
+  field.row_hi = body.field.hi[at.pencil] + 1;
+  field.faces = static_cast<int>(body.faces.size());
+  for (int f = 0; f < field.faces; ++f) field.face[f] = rows_on(body.faces[f], at.index);
+  for (int k = 0; k < 2; ++k) field.mirror[k] = rows_on(body.mirrors[k], at.index);
+  return field;
 }
 
 // For every row of a pencil the fields whose patches hold it.
@@ -138,33 +198,31 @@ void add_rows(Pencil& pencil, PencilTable& table) {
 
 }  // namespace
 
-PencilTable tabulate(const std::vector<BodyPatches>& bodies, const std::array<std::array<int, 2>, 2>& walls) {
-  std::array<int, 2> first{kEmptyLo, kEmptyLo}, last{kEmptyHi, kEmptyHi};
-  for (const auto& body : bodies) {
-    for (int a = 0; a < 2; ++a) {
-      first[a] = std::min(first[a], body.field.patch.first[a]);
-      last[a] = std::max(last[a], body.field.patch.first[a] + body.field.patch.count[a] - 1);
-    }
-  }
+PencilTable tabulate(const std::vector<BodyPatches>& bodies, const std::array<std::array<int, 2>, 2>& walls,
+                     const std::array<int, 2>& periods) {
   PencilTable table;
-  for (int j = first[1]; j <= last[1]; ++j) {
-    for (int i = first[0]; i <= last[0]; ++i) {
-      const std::array<int, 2> index{i, j};
-      Pencil pencil{};
-      pencil.index[0] = i;
-      pencil.index[1] = j;
-      for (int a = 0; a < 2; ++a) {
-        const bool below = walls[a][0] != kNoWall && index[a] < walls[a][0];
-        const bool above = walls[a][1] != kNoWall && index[a] > walls[a][1];
-        if (below || above) pencil.ghost = 1;
-      }
-      pencil.field_begin = static_cast<int>(table.fields.size());
-      add_fields(bodies, index, table);
-      pencil.field_end = static_cast<int>(table.fields.size());
-      if (pencil.field_end == pencil.field_begin) continue;
-      add_rows(pencil, table);
-      table.pencils.push_back(pencil);
+  if (bodies.empty()) return table;
+  const auto axes = pencil_axes(bodies, periods);
+  const auto sorted = sort_pencils(bodies, axes);
+  for (std::size_t place = 0; place + 1 < sorted.start.size(); ++place) {
+    if (sorted.start[place] == sorted.start[place + 1]) continue;
+    Pencil pencil{};
+    const auto along = static_cast<int>(place) % axes[0].count(), across = static_cast<int>(place) / axes[0].count();
+    pencil.index[0] = axes[0].first + along;
+    pencil.index[1] = axes[1].first + across;
+    for (int a = 0; a < 2; ++a) {
+      const bool below = walls[a][0] != kNoWall && pencil.index[a] < walls[a][0];
+      const bool above = walls[a][1] != kNoWall && pencil.index[a] > walls[a][1];
+      if (below || above) pencil.ghost = 1;
     }
+    pencil.field_begin = static_cast<int>(table.fields.size());
+    for (int i = sorted.start[place]; i < sorted.start[place + 1]; ++i) {
+      const auto& at = sorted.pencils[static_cast<std::size_t>(i)];
+      table.fields.push_back(field_of(at, bodies[static_cast<std::size_t>(at.body)]));
+    }
+    pencil.field_end = static_cast<int>(table.fields.size());
+    add_rows(pencil, table);
+    table.pencils.push_back(pencil);
   }
   return table;
 }

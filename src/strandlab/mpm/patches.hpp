@@ -40,7 +40,8 @@ struct PatchStore {
   int pencils() const { return patch.count[0] * patch.count[1]; }
 };
 
-// All pencils of the grid with their fields, and the rows where fields may meet.
+// All pencils of the grid with their fields, and the rows where fields may meet. On a periodic axis pencils that lie
+// whole periods apart are one: there a body also meets the images of others, and its own.
 struct PencilTable {
   std::vector<Pencil> pencils;
   std::vector<PencilField> fields;
@@ -54,7 +55,9 @@ struct BodyPatches {
   std::array<PatchStore, 2> mirrors;  // images in the bottom and the top platen; no pencils: far away
 };
 
-// `walls[axis][side]` is the node index of a roller plane or kNoWall; lateral axes only.
-PencilTable tabulate(const std::vector<BodyPatches>& bodies, const std::array<std::array<int, 2>, 2>& walls);
+// Of the lateral axes: `walls[axis][side]` is the node index of a roller plane or kNoWall, `periods[axis]` the number
+// of cells after which the grid repeats, or 0.
+PencilTable tabulate(const std::vector<BodyPatches>& bodies, const std::array<std::array<int, 2>, 2>& walls,
+                     const std::array<int, 2>& periods);
 
 }  // namespace strandlab::mpm

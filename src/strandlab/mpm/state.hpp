@@ -42,6 +42,8 @@ struct EngineState {
   // Nodes of several pairs, over all steps, whose velocities the last pass of contact still changed by a hundredth of
   // the first pass's change.
   long long unconverged_contacts = 0;
+  int most_fields = 0;      // that met at a node so far, where any did
+  double cell_stretch = 1;  // of the cells' height against Grid::cell, where it follows the strands
 };
 
 // The members, for core/members.hpp.
@@ -61,8 +63,8 @@ auto members(S& energies) {
 template <class S>
 requires std::same_as<std::remove_const_t<S>, EngineState>
 auto members(S& state) {
-  auto& [step, time_s, time_step_s, bottom, top, energies, unconverged_contacts] = state;
-  return std::tie(step, time_s, time_step_s, bottom, top, energies, unconverged_contacts);
+  auto& [step, time_s, time_step_s, bottom, top, energies, unconverged_contacts, most_fields, cell_stretch] = state;
+  return std::tie(step, time_s, time_step_s, bottom, top, energies, unconverged_contacts, most_fields, cell_stretch);
 }
 
 }  // namespace strandlab::mpm

@@ -13,7 +13,8 @@ template <class S>
 requires std::same_as<std::remove_const_t<S>, PencilResult>
 auto members(S& result) {
   auto& [friction, contact, platen_impulse, platen_work, kinetic_change, force_change, contact_ticks, overflow,
-         unconverged] = result;
+         unconverged, most_fields] = result;
+  static_cast<void>(most_fields);  // no sum
   return std::tie(friction, contact, platen_impulse, platen_work, kinetic_change, force_change, contact_ticks, overflow,
                   unconverged);
 }

@@ -93,6 +93,11 @@ Weight weighed(const Mat& mat, const std::vector<StrandKind>& kinds, double area
   return weight;
 }
 
+// A coordinate of a plate's strand, moved by whole periods into the window that repeats.
+double in_window(double at_mm, double period_mm, bool periodic) {
+  return periodic ? at_mm - period_mm * std::floor(at_mm / period_mm) : at_mm;
+}
+
 }  // namespace
 
 const StrandKind& find_kind(const std::vector<StrandKind>& kinds, const std::string& role, std::size_t layer) {
@@ -166,7 +171,9 @@ Panel<3> make_panel(const mat::PlateMat& mat, const std::vector<StrandKind>& kin
                                {piece.length_mm / along, piece.width_mm / across, thickness / through}};
       const auto wood =
           wood_of(kind, find_material(kind, piece, kinds, row, n), 0);  // the lattice is turned, not the wood
-      auto s = formed_strand<3>(lattice, turned(lattice, {piece.cx_mm, piece.cy_mm, middle}, angle), wood);
+      const Vec<3> centre{in_window(piece.cx_mm, panel.length_mm, panel.periodic),
+                          in_window(piece.cy_mm, panel.depth_mm, panel.periodic), middle};
+      auto s = formed_strand<3>(lattice, turned(lattice, centre, angle), wood);
       describe(kind, row, angle, s);
       panel.strands.push_back(std::move(s));
     }

@@ -18,8 +18,10 @@ std::vector<Declaration<Resolution>> resolution_options() {
   using R = Resolution;
   return {declare("cells_through_strand", "", {.lo = 1, .hi = 32}, "cells through the thickness of a strand",
                   &R::cells_through_strand),
-          declare("cell_aspect", "", {.lo = 0.25, .hi = 8}, "length of a cell over its height", &R::cell_aspect),
-          declare("follow_platens", "", kAny, "the height of the cells follows the platens", &R::follow_platens)};
+          declare("cell_aspect", "", {.lo = 0.25, .hi = 8}, "length of a cell over its height; 3D: 4 unless given",
+                  &R::cell_aspect),
+          declare("follow_platens", "", kAny, "the height of the cells follows the platens, in 3D the strands",
+                  &R::follow_platens)};
 }
 
 }  // namespace strandlab::press

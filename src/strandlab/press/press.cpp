@@ -70,7 +70,7 @@ class Press {
     else
       engine_->set_platens({mat.bottom_mm, 0}, {mat.top_mm, 0});
     if (resume) engine_->resume(resume->engine);
-    const double distance = state_.panel.initial_thickness_mm * schedule.compactions.back();
+    const double distance = (schedule.half ? 2 : 1) * state_.panel.initial_thickness_mm * schedule.compactions.back();
     ramp_s_ = schedule.ramp_time_fraction * distance / (schedule.speed_m_s * kMmPerM);
     // A snapshot can fall inside a step; the step is shortened to nothing else, so the state is kept at the first step
     // at or beyond the requested compaction.
@@ -121,6 +121,7 @@ class Press {
     outcome.timing = engine_->timing();
     outcome.bytes = engine_->bytes();
     outcome.particles = engine_->particles();
+    outcome.most_fields = engine_->state().most_fields;
     return outcome;
   }
 
@@ -140,7 +141,9 @@ class Press {
 
   void advance() {
     const double v = closing_speed(engine_->state().time_s, schedule_.speed_m_s * kMmPerM, ramp_s_);
-    if (schedule_.symmetric)
+    if (schedule_.half)
+      engine_->set_platen_velocities(0, -0.5 * v);
+    else if (schedule_.symmetric)
       engine_->set_platen_velocities(0.5 * v, -0.5 * v);
     else
       engine_->set_platen_velocities(0, -v);
@@ -255,7 +258,7 @@ class Press {
     p.target = schedule_.compactions.back();
     p.step = engine_->state().step;
     p.particle_steps_per_s = static_cast<double>(engine_->particle_steps()) / elapsed;
-    const double steps_left = (p.target - p.compaction) * state_.panel.initial_thickness_mm /
+    const double steps_left = (schedule_.half ? 2 : 1) * (p.target - p.compaction) * state_.panel.initial_thickness_mm /
                               (schedule_.speed_m_s * kMmPerM * engine_->state().time_step_s);
     p.eta_s = steps_left * elapsed / static_cast<double>(std::max<long long>(1, p.step - first_step));
     sink_.progress(p);
@@ -383,7 +386,8 @@ Setup<Dim> setup(const Panel<Dim>& mat, const Resolution& resolution, mpm::Side 
     s.grid.sides[a] = {sides, sides};
   }
   s.grid.sides[y] = {mpm::Side::kFree, mpm::Side::kFree};
-  s.grid.follow_platens = resolution.follow_platens;
+  // Mats of plates are open, those of sections are not.
+  if (resolution.follow_platens) s.grid.follow = Dim == 3 ? mpm::Follow::kStrands : mpm::Follow::kPlatens;
   return s;
 }
 

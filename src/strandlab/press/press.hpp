@@ -19,9 +19,10 @@ inline constexpr double kForceLimit = 0.30;    // difference of the platens' for
 inline constexpr double kBalanceLimit = 0.01;  // error of the energy balance over the platens' work
 
 struct Schedule {
-  double speed_m_s = 16;                                   // closing speed of the platens
-  double ramp_time_fraction = 0.02;                        // of the pressing time, smooth start from rest
-  bool symmetric = false;                                  // both platens move; else the top one
+  double speed_m_s = 16;             // closing speed of the platens
+  double ramp_time_fraction = 0.02;  // of the pressing time, smooth start from rest
+  bool symmetric = false;            // both platens move; else the top one
+  bool half = false;  // the mat is the upper half of a symmetric one: its bottom platen is the middle plane, and stands
   std::vector<double> compactions{0, 0.1, 0.2, 0.3, 0.4};  // increasing, < 1: the state is kept at each
   double record_interval_compaction = 0.001;
 };
@@ -92,13 +93,15 @@ struct Outcome {
   mpm::Timing timing;
   std::size_t particles = 0;
   std::size_t bytes = 0;  // held by the engine
+  int most_fields = 0;    // velocity fields that met at a node of the grid
 };
 
 // Cells of the background grid. Particles: two per cell and axis (make_panel with spacing_along = cell/2).
 struct Resolution {
   int cells_through_strand = 3;  // the thinnest one; platens and strand faces may lie anywhere between grid lines
   double cell_aspect = 1;        // length of a cell along the panel over its height
-  bool follow_platens = true;    // the cells' height stays proportional to the platen gap
+  // The cells' height stays proportional to the platen gap; in 3D to the strands' mean stretch through their thickness.
+  bool follow_platens = true;
 };
 
 template <int Dim>
@@ -107,7 +110,8 @@ struct Setup {
   mpm::Options engine;
 };
 
-// The grid of a mat: platens at its faces, sides as given, whole cells between the sides.
+// The grid of a mat: platens at its faces, sides as given, whole cells between the sides. For half a mat
+// (Schedule::half) Options::smooth_bottom is for the caller to set.
 template <int Dim>
 Setup<Dim> setup(const Panel<Dim>& mat, const Resolution& resolution, mpm::Side sides, const mpm::Options& engine);
 

@@ -40,18 +40,20 @@ files::CsvTable moduli_table(const std::vector<PanelModulus>& moduli) {
   return table;
 }
 
-files::CsvTable plate_table(double compaction, const vtest::PlateResult& result) {
+files::CsvTable plate_table(const std::vector<PlateState>& states) {
   std::vector<std::string> columns{"compaction", "compliance_t_mm_per_MPa"};
   for (int i = 1; i <= 6; ++i) {
     for (int j = 1; j <= 6; ++j) columns.push_back(fmt::format("ABD_{}{}", i, j));
   }
   files::CsvTable table(columns);
-  for (const auto& tensor : result.tensors) {
-    std::vector<files::CsvCell> row{compaction, tensor.compliance_t_mm_per_MPa};
-    for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j < 6; ++j) row.emplace_back(tensor.abd(i, j));
+  for (const auto& state : states) {
+    for (const auto& tensor : state.result.tensors) {
+      std::vector<files::CsvCell> row{state.compaction, tensor.compliance_t_mm_per_MPa};
+      for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < 6; ++j) row.emplace_back(tensor.abd(i, j));
+      }
+      table.add_row(std::move(row));
     }
-    table.add_row(std::move(row));
   }
   return table;
 }

@@ -32,8 +32,12 @@ files::CsvTable press_table(const std::vector<press::Record>& records);
 files::CsvTable moduli_table(const std::vector<PanelModulus>& moduli);
 
 // compaction, compliance_t_mm_per_MPa, ABD_11, ABD_12, ... ABD_66: the plate stiffness row by row, (N_xx, N_yy, N_xy,
-// M_xx, M_yy, M_xy) from (e_xx, e_yy, g_xy, k_xx, k_yy, k_xy), N/mm, N and N mm; one row per compliance.
-files::CsvTable plate_table(double compaction, const vtest::PlateResult& result);
+// M_xx, M_yy, M_xy) from (e_xx, e_yy, g_xy, k_xx, k_yy, k_xy), N/mm, N and N mm; one row per compaction and compliance.
+struct PlateState {
+  double compaction = 0;
+  vtest::PlateResult result;
+};
+files::CsvTable plate_table(const std::vector<PlateState>& states);
 
 // compliance_t_mm_per_MPa, strand_a, strand_b (order in the panel, from 0), x_mm, y_mm, slip_mm_per_strain; one row per
 // glue point, in the order of the test. Rounded to 1e-4 mm.

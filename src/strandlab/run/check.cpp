@@ -9,10 +9,46 @@
 #include "strandlab/run/composition.hpp"
 #include "strandlab/run/duration.hpp"
 #include "strandlab/run/form.hpp"
+#include "strandlab/run/plate.hpp"
 
 namespace strandlab::run {
+namespace {
+
+std::string checked_plate(cases::Case resolved) {
+  const auto formed = form_plate(std::move(resolved));
+  const auto& c = formed.c;
+  const auto& mat = formed.mat;
+  auto text = cases::resolved_text(c) + "\n";
+  const auto add = [&text](const std::string& line) { text += "# " + line + "\n"; };
+  add(fmt::format("mat: {} layers, {} strands, {:g} x {:g} x {:g} mm", mat.layers.size(), formed.panel.strands.size(),
+                  mat.length_mm, mat.width_mm, mat.thickness_mm()));
+  for (const auto& line : composition(cases::weigh(c, mat))) add(line);
+  for (const auto& line : cases::derived_constants(c)) add(line);
+  add(fmt::format("as formed: {:.1f} kg/m3", cases::density_kg_m3(c, mat, 0)));
+  for (const double compaction : c.schedule.compactions)
+    add(fmt::format("kept at compaction {}: {:.2f} mm, {:.1f} kg/m3", compaction, mat.thickness_mm() * (1 - compaction),
+                    cases::density_kg_m3(c, mat, compaction)));
+  double press_s = 0;
+  if (cases::is_pressed(c)) {
+    const auto size = cases::press_size(c, formed.panel);
+    press_s = size.press_s;
+    add(fmt::format("particles: {}", size.particles));
+    add(fmt::format("steps: {:.0f}", size.steps));
+    add(fmt::format("memory of the pressing: {:.0f} MB", size.memory_bytes / 1e6));
+    add(fmt::format("disk: {:.0f} MB", size.disk_bytes / 1e6));
+  }
+  const auto tests = vtest::size_of_tests(formed.panel, cases::plate_options(c));
+  add(fmt::format("tests: {} unknowns, {:.0f} MB", tests.unknowns, 1e3 * tests.memory_GB));
+  const auto solutions = static_cast<double>(c.schedule.compactions.size() * c.test.compliance_t_mm_per_MPa.size());
+  add(fmt::format("estimated run time on {} thread(s): {} pressing, {} tests", cases::thread_count(c),
+                  duration(press_s), duration(solutions * tests.seconds_per_compliance)));
+  return text;
+}
+
+}  // namespace
 
 std::string checked_text(cases::Case resolved) {
+  if (cases::has_plate_mat(resolved)) return checked_plate(std::move(resolved));
   const auto formed = form(std::move(resolved));
   refuse_untestable(formed);
   const auto& c = formed.c;

@@ -11,15 +11,12 @@
 #include "strandlab/run/profile_bins.hpp"
 
 namespace strandlab::run {
-namespace {
 
 Progress progress_of(const press::Progress& p) {
   return {"press", p.target > 0 ? p.compaction / p.target : 1,
           fmt::format("compaction {:.3f} of {:g}  step {}  {:.1f} M particle-steps/s  {} left", p.compaction, p.target,
                       p.step, 1e-6 * p.particle_steps_per_s, duration(p.eta_s))};
 }
-
-}  // namespace
 
 mpm::Options engine_options(const cases::Case& c) {
   auto options = c.mpm;

@@ -40,6 +40,9 @@ Pressed press(const Formed& formed, Observer& observer);
 PressOutcome press(const Formed& formed, press::Sink<2> keep, const std::optional<press::Checkpoint<2>>& resume,
                    Observer& observer);
 
+// What the observer hears of how far a pressing is.
+Progress progress_of(const press::Progress& progress);
+
 // Of the panels of a formed mat's case, one per compaction.
 Shapes shapes_of(const cases::Case& c, const std::vector<Panel<2>>& panels);
 

@@ -156,6 +156,35 @@ Json rows_of(const statics::PlateStiffness& m) {
   return rows;
 }
 
+Json to_json(const TestedPlateState& state) {
+  const auto& r = state.result;
+  auto moduli = Json::array(), tensors = Json::array();
+  for (const auto& m : r.moduli) {
+    moduli.push_back({{"test", m.test},
+                      {"compliance_t_mm_per_MPa", m.compliance_t_mm_per_MPa},
+                      {"modulus_MPa", m.modulus_MPa},
+                      {"reaction_modulus_MPa", m.reaction_modulus_MPa}});
+  }
+  for (const auto& t : r.tensors)
+    tensors.push_back({{"compliance_t_mm_per_MPa", t.compliance_t_mm_per_MPa}, {"ABD", rows_of(t.abd)}});
+  Json json{{"compaction", state.compaction},
+            {"wall_s", state.wall_s},
+            {"moduli", moduli},
+            {"plate_stiffness", tensors},
+            {"strands", r.strands},
+            {"floating_strands", r.floating_strands},
+            {"glued_area_mm2", r.glued_area_mm2},
+            {"glued_fraction", r.glued_fraction},
+            {"unknowns", r.unknowns},
+            {"assemble_s", r.assemble_s},
+            {"analyse_s", r.analyse_s},
+            {"factor_s", r.factor_s},
+            {"solve_s", r.solve_s},
+            {"warnings", r.warnings}};
+  if (!state.not_testable.empty()) json["not_testable"] = state.not_testable;
+  return json;
+}
+
 }  // namespace
 
 void begin_record(Json& record, const Formed& formed) {
@@ -166,14 +195,17 @@ void begin_record(Json& record, const Formed& formed) {
 
 void begin_record(Json& record, const FormedPlate& formed) {
   begin(record, formed.c);
-  const auto weight = cases::weigh(formed.c, formed.mat);
-  record["mat"] = to_json(weight);
-  record["states"] = Json::array({{{"compaction", 0.0},
-                                   {"thickness_mm", formed.mat.thickness_mm()},
-                                   {"density_kg_m3", 1e3 * weight.kg_per_m2 / formed.mat.thickness_mm()}}});
+  record["mat"] = to_json(cases::weigh(formed.c, formed.mat));
+  auto& states = record["states"] = Json::array();
+  for (const double compaction : formed.c.schedule.compactions) {
+    states.push_back({{"compaction", compaction},
+                      {"thickness_mm", formed.mat.thickness_mm() * (1 - compaction)},
+                      {"density_kg_m3", cases::density_kg_m3(formed.c, formed.mat, compaction)}});
+  }
 }
 
-Json summary(const press::Outcome<2>& outcome, int threads) {
+template <int Dim>
+Json summary(const press::Outcome<Dim>& outcome, int threads) {
   const double particle_steps = outcome.particle_steps_per_s * outcome.wall_s;
   return {{"particles", outcome.particles},
           {"steps", outcome.steps},
@@ -183,10 +215,13 @@ Json summary(const press::Outcome<2>& outcome, int threads) {
           {"ns_per_particle_step", outcome.particle_steps_per_s > 0 ? 1e9 / outcome.particle_steps_per_s : 0},
           {"ns_per_particle_step_by_phase", to_json(outcome.timing.phases, particle_steps)},
           {"fields_per_node", outcome.timing.fields_per_node},
+          {"most_fields", outcome.most_fields},
           {"plastic_fraction", outcome.timing.plastic_fraction},
           {"engine_bytes", outcome.bytes},
           {"warnings", outcome.warnings}};
 }
+template Json summary(const press::Outcome<2>&, int);
+template Json summary(const press::Outcome<3>&, int);
 
 Json to_json(const std::vector<profile::Profile>& profiles) {
   auto list = Json::array();
@@ -210,28 +245,10 @@ Json to_json(const Tested& tested) {
   return list;
 }
 
-Json to_json(const vtest::PlateResult& r) {
-  auto moduli = Json::array(), tensors = Json::array();
-  for (const auto& m : r.moduli) {
-    moduli.push_back({{"test", m.test},
-                      {"compliance_t_mm_per_MPa", m.compliance_t_mm_per_MPa},
-                      {"modulus_MPa", m.modulus_MPa},
-                      {"reaction_modulus_MPa", m.reaction_modulus_MPa}});
-  }
-  for (const auto& t : r.tensors)
-    tensors.push_back({{"compliance_t_mm_per_MPa", t.compliance_t_mm_per_MPa}, {"ABD", rows_of(t.abd)}});
-  return {{"moduli", moduli},
-          {"plate_stiffness", tensors},
-          {"strands", r.strands},
-          {"floating_strands", r.floating_strands},
-          {"glued_area_mm2", r.glued_area_mm2},
-          {"glued_fraction", r.glued_fraction},
-          {"unknowns", r.unknowns},
-          {"assemble_s", r.assemble_s},
-          {"analyse_s", r.analyse_s},
-          {"factor_s", r.factor_s},
-          {"solve_s", r.solve_s},
-          {"warnings", r.warnings}};
+Json to_json(const TestedPlate& tested) {
+  auto list = Json::array();
+  for (const auto& state : tested) list.push_back(to_json(state));
+  return list;
 }
 
 Tested tested_from_json(const Json& states) {

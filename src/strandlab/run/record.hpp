@@ -20,13 +20,14 @@ void begin_record(nlohmann::json& record, const Formed& formed);
 void begin_record(nlohmann::json& record, const FormedPlate& formed);
 
 // Speed, time, warnings of a pressing.
-nlohmann::json summary(const press::Outcome<2>& outcome, int threads);
+template <int Dim>
+nlohmann::json summary(const press::Outcome<Dim>& outcome, int threads);
 
 // One object per compaction.
 nlohmann::json to_json(const std::vector<profile::Profile>& profiles);
 
-// Moduli, plate stiffness and counts of a plate's tests; wall_s beside them.
-nlohmann::json to_json(const vtest::PlateResult& result);
+// Moduli, plate stiffness and counts of a plate's tests, one object per compaction.
+nlohmann::json to_json(const TestedPlate& tested);
 
 // One object per compaction; what tested_from_json() reads gives the same bits again.
 nlohmann::json to_json(const Tested& tested);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "strandlab/core/error.hpp"
+#include "strandlab/statics/straighten.hpp"
 
 namespace strandlab::statics {
 namespace {
@@ -28,83 +28,6 @@ Vec<2> grain_between(const Strand<2>& strand, const Vec<2>& from, const Vec<2>& 
   });
   return sum.normalized();
 }
-
-// Moves the nodes of folded elements of one strand, and of a growing neighbourhood, to the mean of their neighbours.
-class Straightener {
- public:
-  Straightener(const StrandMesh<2>& part, double formed_area, std::vector<Vec<2>>& nodes)
-      : part_(part), smallest_(0.1 * formed_area), nodes_(nodes), moves_(nodes.size() - part.first_node) {}
-
-  // Number of elements that were folded. Throws RunError when some still are.
-  int run() {
-    constexpr int kSweeps = 400, kSweepsPerRing = 20;
-    const int found = mark_folded(0);
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      if (mark_folded(1 + sweep / kSweepsPerRing) == 0) return found;
-      for (int j = 0; j <= part_.through(); ++j) {
-        for (int i = 0; i <= part_.along(); ++i) {
-          if (moves_[part_.node(i, j) - part_.first_node]) at(i, j) += 0.5 * (smooth(i, j) - at(i, j));
-        }
-      }
-    }
-    if (mark_folded(0) == 0) return found;
-    throw RunError(
-        fmt::format("strand {} is too distorted for a virtual test: folded elements near x = {:.3f} mm, y = {:.3f} mm",
-                    part_.strand + 1, folded_[0], folded_[1]));
-  }
-
- private:
-  Vec<2>& at(int i, int j) { return nodes_[part_.node(i, j)]; }
-
-  // Twice the area of the smallest of the four corner triangles.
-  double smallest_corner(int i, int j) {
-    const std::array<Vec<2>, 4> c{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
-    double smallest = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 4; ++k) {
-      const Vec<2> next = c[(k + 1) % 4] - c[k], previous = c[(k + 3) % 4] - c[k];
-      smallest = std::min(smallest, next[0] * previous[1] - next[1] * previous[0]);
-    }
-    return smallest;
-  }
-
-  // Marks the nodes within `rings` of folded elements as movable; returns the number of such elements.
-  int mark_folded(int rings) {
-    std::fill(moves_.begin(), moves_.end(), 0);
-    int count = 0;
-    for (int j = 0; j < part_.through(); ++j) {
-      for (int i = 0; i < part_.along(); ++i) {
-        if (smallest_corner(i, j) >= smallest_) continue;
-        ++count;
-        folded_ = at(i, j);
-        for (int b = std::max(0, j - rings); b <= std::min(part_.through(), j + 1 + rings); ++b) {
-          for (int a = std::max(0, i - rings); a <= std::min(part_.along(), i + 1 + rings); ++a) {
-            moves_[part_.node(a, b) - part_.first_node] = 1;
-          }
-        }
-      }
-    }
-    return count;
-  }
-
-  // Inside: the mean of four neighbours; on a face or an end: of the two along it; at a corner: completes the
-  // parallelogram.
-  Vec<2> smooth(int i, int j) {
-    const bool end = i == 0 || i == part_.along(), face = j == 0 || j == part_.through();
-    if (end && face) {
-      const int a = i == 0 ? 1 : i - 1, b = j == 0 ? 1 : j - 1;
-      return at(a, j) + at(i, b) - at(a, b);
-    }
-    if (end) return 0.5 * (at(i, j - 1) + at(i, j + 1));
-    if (face) return 0.5 * (at(i - 1, j) + at(i + 1, j));
-    return 0.25 * (at(i - 1, j) + at(i + 1, j) + at(i, j - 1) + at(i, j + 1));
-  }
-
-  StrandMesh<2> part_;
-  double smallest_;  // mm^2
-  std::vector<Vec<2>>& nodes_;
-  std::vector<char> moves_;  // by node of the strand
-  Vec<2> folded_ = Vec<2>::Zero();
-};
 
 // Unit axes of the strand where an element is, from the points that it covers: along is the material line of the grain,
 // thickness is perpendicular to it and to the material line across.
@@ -152,7 +75,7 @@ void append_strand(const Strand<Dim>& strand, StrandMesh<Dim> part, Mesh<Dim>& m
     mesh.nodes.push_back(strand.lattice.between_corners(at_corners, coordinate));
   }
   const double formed = part.points_per_element.prod() * strand.lattice.point_volume();  // V0 of an element
-  if constexpr (Dim == 2) mesh.straightened += Straightener(part, formed, mesh.nodes).run();
+  mesh.straightened += straighten(part, formed, mesh.nodes);
   for (std::size_t e = 0; e < elements.size(); ++e) {
     auto& nodes = mesh.elements.emplace_back();
     const auto cell = elements.cell(e);

@@ -34,7 +34,7 @@ struct Mesh {
   std::vector<std::array<int, kCorners<Dim>>> elements;  // nodes, as ElementCorners
   std::vector<WoodStiffness<Dim>>
       stiffness;         // MPa, by element, panel axes: C0 V0/V_e with the axes of the element's points
-  int straightened = 0;  // elements that were folded, as dragged strand corners are (2D)
+  int straightened = 0;  // elements that were folded, as dragged strand corners are
   int dofs() const { return Dim * static_cast<int>(nodes.size()); }
   ElementCorners<Dim> corners(std::size_t element) const {
     ElementCorners<Dim> x;

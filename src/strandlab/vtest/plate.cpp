@@ -36,6 +36,8 @@ PlateSize size_of_tests(const Panel<3>& panel, const PlateOptions& options) {
                      (mat::through(lattice.thickness(), thinnest, options.elements_through_strand) + 1);
   }
   const auto n = static_cast<double>(size.unknowns);
+  const int factors = !panel.periodic ? 3 : options.glued_plates ? 2 : 1;  // cut: of plane ends along x, y; of shear
+  size.seconds_per_compliance = factors * 1.5 * std::pow(n / 42e3, 1.3);
   size.memory_GB = 1e-9 * (10 * 5.8e6 * std::pow(n / 19e3, 1.32) + 2500 * n);  // factor; matrices and elements
   return size;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "strandlab/core/error.hpp"
 #include "strandlab/glue/glue.hpp"
 #include "strandlab/panel/panel.hpp"
 #include "strandlab/statics/element.hpp"
@@ -57,18 +58,24 @@ struct PlateResult {
   std::vector<std::string> warnings;                                // plain sentences
 };
 
-// What the tests of a panel will take: unknowns, and memory by a fit to CHOLMOD's factors of such panels.
+// What the tests of a panel will take: unknowns; memory and time of one thread by fits to CHOLMOD's factors of such
+// panels.
 struct PlateSize {
   long unknowns = 0;
   double memory_GB = 0;
+  double seconds_per_compliance = 0;
 };
 PlateSize size_of_tests(const Panel<3>& panel, const PlateOptions& options);
 
+// Of a panel of which no glue holds strands together all the way across x and y: there is nothing to test.
+struct NotConnected : InputError {
+  using InputError::InputError;
+};
+
 // Moduli of the panel, frozen as it lies between the platens; a periodic one as part of an endless plate, the plate
 // strains acting on it everywhere and its strands free to move beyond them. Throws InputError for options it cannot
-// use, and for a panel of which no glue holds strands together all the way across x and y, RunError for an inverted
-// element. `before_solve`, where given, is called before each solution of the equations; what it throws ends the tests
-// and passes through.
+// use, NotConnected, RunError for an inverted element. `before_solve`, where given, is called before each solution of
+// the equations; what it throws ends the tests and passes through.
 PlateResult measure(const Panel<3>& panel, const PlateOptions& options,
                     const std::function<void()>& before_solve = nullptr);
 

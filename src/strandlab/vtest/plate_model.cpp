@@ -19,7 +19,7 @@ void refuse_pieces(const PlateConnection& connection, bool periodic) {
   if (connection.across_both) return;
   const char* where = !connection.across_x && !connection.across_y ? "x or y" : !connection.across_x ? "x" : "y";
   if (periodic && connection.across_x && connection.across_y) where = "x and y, but along a diagonal only";
-  throw InputError(
+  throw NotConnected(
       fmt::format("the panel is not connected across {}: no glue holds strands together all the way", where));
 }
 

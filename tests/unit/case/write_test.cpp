@@ -100,6 +100,7 @@ TEST(CaseWrite, ReadyCasesHaveTheirRows) {
 TEST(CaseWrite, CasesOfTheDissertationKeepItsLaw) {
   for (const auto& name : ready_cases()) {
     const auto c = ready_case(name);
+    if (is_plate(c)) continue;  // of neither
     const bool published = name.find("le2010") == 0 || name.find("rathi") == 0 || name.find("osb_") == 0;
     for (const auto& kind : strand_kinds(c)) {
       EXPECT_EQ(kind.material.law, published ? wood::Law::kHill : wood::Law::kCrushing) << name;

@@ -112,6 +112,7 @@ class Bits {
  public:
   void add(double value) { bits_.push_back(std::bit_cast<std::uint64_t>(value)); }
   void add(long long value) { bits_.push_back(static_cast<std::uint64_t>(value)); }
+  void add(int value) { add(static_cast<long long>(value)); }
   template <class Derived>
   void add(const Eigen::MatrixBase<Derived>& matrix) {
     for (const double value : matrix.reshaped()) add(value);
@@ -243,7 +244,7 @@ TEST_F(CheckpointFile, EveryDatasetSaysItsUnit) {
   H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, visit, &count);
   H5Fclose(file);
   EXPECT_EQ(count.datasets,
-            6 + 3 + 14 + 12 + 18 + 14 + 14 + 6);  // frame, strands, points, engine, records, pending, press
+            6 + 3 + 14 + 12 + 20 + 14 + 14 + 6);  // frame, strands, points, engine, records, pending, press
   EXPECT_EQ(count.labelled, count.datasets);
 }
 

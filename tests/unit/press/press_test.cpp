@@ -81,7 +81,7 @@ TEST(Setup, CellsFitTheMat) {
   const double cells = 10 / s.grid.cell[0];
   EXPECT_NEAR(cells, std::round(cells), 1e-12);
   EXPECT_NEAR(s.grid.cell[0] / (2 * kRow / 3), 1, 0.05);
-  EXPECT_TRUE(s.grid.follow_platens);
+  EXPECT_EQ(s.grid.follow, mpm::Follow::kPlatens);
   EXPECT_EQ(s.grid.sides[0][0], mpm::Side::kRoller);
   EXPECT_EQ(s.grid.sides[0][1], mpm::Side::kRoller);
 }

@@ -187,6 +187,31 @@ TEST(Mesh, StraightensFoldedCorners) {
   }
 }
 
+TEST(Mesh, StraightensFoldedCornersOfPlates) {
+  const auto plate = [] {
+    const Lattice<3> lattice{{12, 8, 6}, {0.5, 0.5, 0.8 / 6}};
+    Panel<3> panel;
+    panel.length_mm = panel.depth_mm = 20;
+    panel.initial_thickness_mm = panel.top_mm = 0.8;
+    panel.strands.push_back(
+        formed_strand<3>(lattice, turned(lattice, {10, 10, 0.4}, 30), wood::in_strand_axes(wood::Material{}, 0)));
+    return panel;
+  };
+  auto panel = plate();
+  panel.strands[0].points.x[0] += Vec<3>(0.6, 0.5, 0.4);
+  panel.strands[0].points.x[1] += Vec<3>(0.2, 0.1, 0.3);
+  const auto mesh = make_mesh(panel, {true}, 3, 0.5), reference = make_mesh(plate(), {true}, 3, 0.5);
+  EXPECT_GT(mesh.straightened, 0);
+  EXPECT_EQ(reference.straightened, 0);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) EXPECT_GT(volume(mesh.corners(e)), 0);
+  double moved_far_away = 0;
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    if ((reference.nodes[n] - reference.nodes[0]).norm() > 4)
+      moved_far_away = std::max(moved_far_away, (mesh.nodes[n] - reference.nodes[n]).norm());
+  }
+  EXPECT_EQ(moved_far_away, 0);
+}
+
 // A strand turned inside out cannot be meshed.
 TEST(Mesh, SaysWhichStrandIsTooDistorted) {
   auto panel = two_strands();

@@ -51,11 +51,12 @@ Panel<Dim> mat() {
 }
 
 // Cells 1.5 times as wide across: then the section's directions alone set the time step, and both runs take the same
-// steps.
+// steps. Their height follows the platens, as the section's.
 template <int Dim>
 press::Setup<Dim> setup_of(const Panel<Dim>& panel) {
   auto setup = press::setup(panel, press::Resolution{}, mpm::Side::kRoller, mpm::Options{});
   if (Dim == 3) setup.grid.cell[1] = 1.5 * kCell;
+  setup.grid.follow = mpm::Follow::kPlatens;
   return setup;
 }
 

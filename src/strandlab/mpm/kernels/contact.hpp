@@ -82,8 +82,11 @@ struct Pair {
 };
 
 template <int Dim>
-STRANDLAB_INLINE void find_faces(const PencilField& field, unsigned faces, int row, const double* x,
-                                 const double* surface, Meeting<Dim>& m) {
+STRANDLAB_INLINE void find_faces(const PencilField& field, unsigned faces, int row, double height,
+                                 const Step<Dim>& step, const double* surface, Meeting<Dim>& m) {
+  double x[Dim];  // the field's own node: on a periodic axis fields meet whose nodes lie whole periods apart
+  for (int a = 0; a < Dim - 1; ++a) x[a] = step.origin[a] + field.index[a] * step.cell[a];
+  x[Dim - 1] = height;
   m.faces = 0;
   for (; faces; faces &= faces - 1) {
     const int f = __builtin_ctz(faces);

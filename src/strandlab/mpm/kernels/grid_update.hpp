@@ -79,15 +79,15 @@ STRANDLAB_INLINE void momentum_balance(const PencilField& field, const Pack& sca
 // the step, so that the number decides what is looked at; it must hold what a step can close (at 64 m/s a few
 // hundredths of a cell). Judgement; a twentieth of a cell loses contacts (faces_test.cpp).
 template <int Dim>
-STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, const Step<Dim>& step,
-                                  const GridView<Dim>& grid, Encounters<Dim>& encounters, PencilResult& result) {
+STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, const Step<Dim>& step, const GridView<Dim>& grid,
+                                  Encounters<Dim>& encounters, PencilResult& result) {
   const double cell = step.cell[Dim - 1], reach = 0.25 * cell;
   const int begin = grid.row_start[pencil.slots + row - pencil.row_lo];
   const int end = grid.row_start[pencil.slots + row - pencil.row_lo + 1];
-  x[Dim - 1] = step.origin[Dim - 1] + row * cell;
+  const double height = step.origin[Dim - 1] + row * cell;
   bool platen[2];
   for (int k = 0; k < 2; ++k) {
-    platen[k] = step.platen[k].present && (step.platen[k].position - x[Dim - 1]) * (k == 0 ? -1 : 1) < 1.5 * cell;
+    platen[k] = step.platen[k].present && (step.platen[k].position - height) * (k == 0 ? -1 : 1) < 1.5 * cell;
   }
   const int least = platen[0] || platen[1] ? 1 : 2;
   if (end - begin < least) return;
@@ -105,10 +105,11 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
     m[fields].record = record;
     origin[fields++] = &grid.slots[s];
   }
+  result.most_fields = fields > result.most_fields ? fields : result.most_fields;
   if (fields < least) return;
   const int real = fields;
   const auto field_of = [&](int i) -> const PencilField& { return grid.fields[pencil.field_begin + origin[i]->field]; };
-  for (int i = 0; i < real; ++i) find_faces<Dim>(field_of(i), origin[i]->faces, row, x, grid.surface, m[i]);
+  for (int i = 0; i < real; ++i) find_faces<Dim>(field_of(i), origin[i]->faces, row, height, step, grid.surface, m[i]);
   Pair<Dim> pairs[kMaxFields * (kMaxFields + 3) / 2];
   if (real == 2 && least == 2) {
     if (find_pair<Dim>(m[0], m[1], reach, pairs[0])) add<Dim>(m[0].record, m[1].record, pairs[0], encounters);
@@ -126,11 +127,11 @@ STRANDLAB_INLINE void contact_row(const Pencil& pencil, int row, double* x, cons
     }
     for (int k = 0; k < 2; ++k) {
       Pair<Dim>& pair = pairs[count];
-      if (!platen[k] || !platen_pair<Dim>(m[i], step, k, x[Dim - 1], reach, pair)) continue;
+      if (!platen[k] || !platen_pair<Dim>(m[i], step, k, height, reach, pair)) continue;
       if (!has_mirror<Dim>(field_of(i), k, row, grid, m[fields])) continue;
       pair.a = i;
       pair.b = fields++;
-      pair.friction = grid.platen_friction;
+      pair.friction = grid.platen_friction[k];
       ++count;
     }
   }
@@ -145,11 +146,9 @@ void update_grid(const Pencil& pencil, const Step<Dim>& step, const GridView<Dim
   for (int f = pencil.field_begin; f < pencil.field_end; ++f)
     momentum_balance<Dim>(grid.fields[f], scale, grid, result);
   Stopwatch watch(timed);
-  double x[Dim];
-  for (int a = 0; a < Dim - 1; ++a) x[a] = step.origin[a] + pencil.index[a] * step.cell[a];
   Encounters<Dim> encounters;
   for (int row = pencil.row_lo; row < pencil.row_hi; ++row) {
-    contact_row<Dim>(pencil, row, x, step, grid, encounters, result);
+    contact_row<Dim>(pencil, row, step, grid, encounters, result);
     if (encounters.count == kBlock) resolve<Dim>(encounters, step, grid.friction, result);
   }
   resolve<Dim>(encounters, step, grid.friction, result);
