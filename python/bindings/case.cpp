@@ -40,7 +40,10 @@ std::vector<std::pair<std::string, Place>> places_in(const Case& c) {
 
 std::vector<std::string> paths_in(const Case& c) {
   std::vector<std::string> paths;
-  for (const auto& [path, place] : places_in(c)) paths.push_back(path);
+  for (const auto& [path, place] : places_in(c)) {
+    if (!cases::is_foreign(*place.key, c) || path == "mat.width_mm")
+      paths.push_back(path);  // the key that makes a plate
+  }
   return paths;
 }
 
