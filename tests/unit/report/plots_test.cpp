@@ -69,7 +69,8 @@ TEST(Plots, ArePngFiles) {
 // One gnuplot prints several pictures of any format, each whole and in its own file, and the same each time.
 TEST(Plots, ForPaperArePdfSvgAndPng) {
   const TemporaryFolder folder;
-  const auto begins = [&](PaperFormat format, const std::string& name, const std::string& first, const std::string& last) {
+  const auto begins = [&](PaperFormat format, const std::string& name, const std::string& first,
+                          const std::string& last) {
     const Paper paper{format, 84, "sans", 8};
     const std::vector<Picture> pictures{{compaction_plot(moduli(), "tension"), folder / ("a" + name)},
                                         {compliance_plot(moduli(), "tension"), folder / ("b" + name)}};
