@@ -7,6 +7,7 @@
 
 #include "bindings.hpp"
 #include "observer.hpp"
+#include "strandlab/core/error.hpp"
 #include "strandlab/report/result_tables.hpp"
 #include "strandlab/run/plate.hpp"
 
@@ -15,13 +16,15 @@ namespace {
 
 struct TestedPlate {
   run::FormedPlate formed;
-  vtest::PlateResult result;
+  run::TestedPlateState state;  // as it lies
 };
 
 TestedPlate test_plate(const run::FormedPlate& formed) {
   PythonObserver observer{py::none()};
   const py::gil_scoped_release released;
-  return {formed, run::test_plate(formed, observer)};
+  TestedPlate tested{formed, run::test_plate(formed, formed.panel, 0, observer)};
+  if (!tested.state.not_testable.empty()) throw InputError(tested.state.not_testable);
+  return tested;
 }
 
 py::dict plate_strands(const run::FormedPlate& formed) {
@@ -49,10 +52,12 @@ void bind_plate(py::module_& module) {
   module.def("is_plate", &cases::is_plate, py::arg("case"));
 
   py::class_<TestedPlate>(module, "TestedPlate")
-      .def_property_readonly("warnings", [](const TestedPlate& t) { return t.result.warnings; })
+      .def_property_readonly("warnings", [](const TestedPlate& t) { return t.state.result.warnings; })
       .def("moduli",
-           [](const TestedPlate& t) { return columns_of(report::moduli_table(run::moduli_of(t.formed, t.result))); })
-      .def("abd", [](const TestedPlate& t) { return columns_of(report::plate_table(0, t.result)); });
+           [](const TestedPlate& t) { return columns_of(report::moduli_table(run::moduli_of(t.formed, {t.state}))); })
+      .def("abd", [](const TestedPlate& t) {
+        return columns_of(report::plate_table({{0, t.state.result}}));
+      });
   module.def("test_plate", &test_plate, py::arg("formed"));
 }
 
