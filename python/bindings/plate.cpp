@@ -49,7 +49,7 @@ void bind_plate(py::module_& module) {
       .def_property_readonly("kg_per_m2", [](const run::FormedPlate& f) { return cases::weigh(f.c, f.mat).kg_per_m2; })
       .def("strands", &plate_strands);
   module.def("form_plate", &run::form_plate, py::arg("case"), py::call_guard<py::gil_scoped_release>());
-  module.def("is_plate", &cases::is_plate, py::arg("case"));
+  module.def("is_plate", &cases::has_plate_mat, py::arg("case"));
 
   py::class_<TestedPlate>(module, "TestedPlate")
       .def_property_readonly("warnings", [](const TestedPlate& t) { return t.state.result.warnings; })

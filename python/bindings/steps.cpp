@@ -91,7 +91,7 @@ void run_in_folder(const cases::Case& c, const std::filesystem::path& folder, bo
   PythonObserver observer(std::move(on_progress));
   const py::gil_scoped_release released;
   const run::Place place{folder, force};
-  if (cases::is_plate(c))
+  if (cases::has_plate_mat(c))
     run::plate(c, place, observer);
   else
     run::all(c, place, observer);
