@@ -14,6 +14,10 @@ COARSE = ("mat.length_mm=60", "grid.cells_through_strand=1", "grid.cell_aspect=4
           "glue.compliance_t_mm_per_MPa=[0.0105]", "test.elements_through_strand=1", "test.kinds=[tension]")
 
 
+# A whole press cycle costs more: half the length, four times the speed.
+QUICK = {"hot_osb": ("mat.length_mm=30", "press.speed_m_s=64")}
+
+
 def settings(*changes):
     return [part for change in changes for part in ("--set", change)]
 
@@ -30,7 +34,7 @@ def make(name):
 
 def ready_case(name):
     make(name)
-    run = strandlab("run", f"{name}.toml", *settings(*COARSE))
+    run = strandlab("run", f"{name}.toml", *settings(*COARSE, *QUICK.get(name, ())))
     check(run.returncode == DONE, f"run {name}: {run.stderr}")
     record = json.loads(pathlib.Path("runs", name, "run.json").read_text(encoding="utf-8"))
     for key in ("weight_fraction_by_kind", "weight_fraction_by_material"):

@@ -68,15 +68,17 @@ INSTANTIATE_TEST_SUITE_P(AsFormed, ReferenceModuli,
                          testing::Values(Case{"plywood", "", 0, 3, 1e-4}, Case{"lvl", "", 0, 3, 1e-4},
                                          Case{"osb_s1", "", 0, 3, 5e-4}, Case{"osl_s1", "", 0, 3, 3e-4}));
 INSTANTIATE_TEST_SUITE_P(AsFormedSixElements, ReferenceModuli,
-                         testing::Values(Case{"osb_s1", "_fine", 0, 6, 3e-4}, Case{"lvl", "_fine", 0, 6, 3e-5}));
+                         testing::Values(Case{"lvl", "_fine", 0, 6, 3e-5}));
+INSTANTIATE_TEST_SUITE_P(NightlySixElements, ReferenceModuli, testing::Values(Case{"osb_s1", "_fine", 0, 6, 3e-4}));
 // Strand ends on a raster of .0667 mm that the default lattice does not share, solved there with elements of .0667 mm.
 INSTANTIATE_TEST_SUITE_P(EndsOffTheLattice, ReferenceModuli,
                          testing::Values(Case{"osb_fine_s11", "", 0, 3, 0.01}, Case{"osl_fine_s12", "", 0, 3, 0.01}));
 // Flattened to 80 % of their height: stiffness C0 V0/V_e with V0/V_e = 1.25, glue unchanged.
 INSTANTIATE_TEST_SUITE_P(Flattened, ReferenceModuli,
                          testing::Values(Case{"plywood", "_flat_compacted_0.2", 0.2, 3, 1e-4},
-                                         Case{"lvl", "_flat_compacted_0.2", 0.2, 3, 1e-4},
-                                         Case{"osb_s1", "_flat_compacted_0.2", 0.2, 3, 5e-4},
+                                         Case{"osb_s1", "_flat_compacted_0.2", 0.2, 3, 5e-4}));
+INSTANTIATE_TEST_SUITE_P(NightlyFlattened, ReferenceModuli,
+                         testing::Values(Case{"lvl", "_flat_compacted_0.2", 0.2, 3, 1e-4},
                                          Case{"osl_s1", "_flat_compacted_0.2", 0.2, 3, 3e-4}));
 
 // Without gaps nothing slips in tension or pure bending: the glue cannot matter.
