@@ -25,7 +25,7 @@ if(STRANDLAB_FUZZ)  # every room counts its branches, for the fuzzers to find ne
   target_compile_options(strandlab_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
-# What only moves files, words and tables about is compiled for quick building: none of a run's time goes there.
+# What only moves files, words and tables about is compiled for quick building: little of a run's time goes there.
 set(strandlab_quick_to_build $<IF:$<BOOL:${STRANDLAB_SANITIZE}>,-O0,$<$<CONFIG:Release>:-O1>>)
 set(strandlab_quick_rooms files table statistics theory profile bondline case io report run study)
 

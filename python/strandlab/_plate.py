@@ -4,35 +4,19 @@ from __future__ import annotations
 
 from . import _core as core
 from ._case import Case
+from ._formed import Formed
 from ._tables import Table, as_table
 
 
-class Plate:
-    """A mat in 3D, read from the mat file of its case: plate()."""
+class Plate(Formed):
+    """A mat in 3D, read from the mat file of its case or formed (mat.width_mm): plate()."""
 
-    def __init__(self, formed: core.FormedPlate, case: Case) -> None:
-        self._core = formed
-        self.case = case
-
-    @property
-    def length_mm(self) -> float:
-        """Of the window, along x."""
-        return self._core.length_mm
+    _core: core.FormedPlate
 
     @property
     def width_mm(self) -> float:
         """Of the window, along y."""
         return self._core.width_mm
-
-    @property
-    def thickness_mm(self) -> float:
-        """Distance of the platens."""
-        return self._core.thickness_mm
-
-    @property
-    def kg_per_m2(self) -> float:
-        """Weight per area."""
-        return self._core.kg_per_m2
 
     @property
     def strands(self) -> Table:
@@ -69,5 +53,5 @@ class TestedPlate:
 
 
 def plate(case: Case) -> Plate:
-    """The plate of a case whose mat.file is in 3D, with press.compactions = [0]."""
+    """The plate of a case whose mat.file is in 3D or that has mat.width_mm, with press.compactions = [0]."""
     return Plate(core.form_plate(case._core), case.copy())

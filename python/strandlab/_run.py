@@ -9,6 +9,7 @@ from typing import Any, Callable, Iterator, Sequence, overload
 
 from . import _core as core
 from ._case import Case
+from ._formed import Formed
 from ._panel import Panel
 from ._tables import Table, as_table, read_table
 from ._types import OnProgress
@@ -16,30 +17,15 @@ from ._types import OnProgress
 OnState = Callable[[Panel], object]
 
 
-class Mat:
+class Mat(Formed):
     """A mat as formed, ready to press: form()."""
 
-    def __init__(self, formed: core.Formed, case: Case) -> None:
-        self._core = formed
-        self.case = case
+    _core: core.Formed
 
     @property
     def compactions(self) -> list[float]:
         """Compactions at which the panel will be kept, solved for this mat's weight."""
         return self._core.compactions
-
-    @property
-    def length_mm(self) -> float:
-        return self._core.length_mm
-
-    @property
-    def thickness_mm(self) -> float:
-        return self._core.thickness_mm
-
-    @property
-    def kg_per_m2(self) -> float:
-        """Weight per area of panel."""
-        return self._core.kg_per_m2
 
     @property
     def strands(self) -> Table:

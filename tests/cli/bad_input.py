@@ -65,6 +65,9 @@ def overrides():
     expect_bad_input(["mat", "panel.toml", "--set", "press.speed_m_s=-3"], ["press.speed_m_s = -3 m/s"])
     expect_bad_input(["mat", "panel.toml", "--set", "test.kinds=[bending_3_point]", "--set", "press.compactions=[0.25]"],
                      ["span of 20 thicknesses", "264 mm", "0.25", "mat.length_mm"])
+    expect_bad_input(["mat", "panel.toml", "--set", "glue.coverage=0"], ["glue.coverage = 0", "greater than 0"])
+    expect_bad_input(["mat", "panel.toml", "--set", "glue.coverage_classes=[0.1,0.5,1]", "--set", "glue.coverage_compliances_mm_per_MPa=[0.01,0.02,0]"],
+                     ["glue.coverage", "1/D_t = [0.01, 0.02, 0]", "not increasing"])
     expect_bad_input(["mat", "panel.toml", "--set", "mat.length_mm=1e9"], ["mat.length_mm", "to 100000"])
     expect_bad_input(["mat", "panel.toml", "--set", "mat.length_mm=1e5", "--set", "grid.cells_through_strand=32",
                       "--set", "grid.cell_aspect=0.25"], ["particles", "MB of memory", "mat.length_mm"])

@@ -178,6 +178,7 @@ def bad_schedules():
     told("hotpress.moisture_face=0.4", "hotpress.moisture_face = 0.4 kg/kg", "from 0 to 0.3")
     told("hotpress.platen_C=400", "hotpress.platen_C = 400 C", "from 20 to 300")
     told("hotpress.resin.face=glue", '"glue" is not one of pf, pmdi')
+    told('hotpress.resin.face_kinds=["faces"]', "hotpress.resin.face_kinds", '"faces" is no kind of strand of this case', '"surface"')
     told("hotpress.platen_program=warm", "hotpress.platen_program", "must be pairs of numbers")
     told("hotpress.permeability.table=\"400 0\"", "hotpress.permeability.table", "must be greater than 0")
     told("hotpress.sof=1", "unknown key hotpress.sof")

@@ -98,6 +98,13 @@ def formed():
     check(pathlib.Path("formed/mat.json").read_bytes() == pathlib.Path("formed_mat/mat.json").read_bytes(), "run tests the mat that form makes")
 
 
+def what_its_tests_cannot_use():
+    """Is said before the press closes."""
+    for setting, words in (("glue.spot_mm=2", ["glue.spot_mm", "laid on sections only"]), ("glue.compliance_t_mm_per_MPa=[]", ["compliance"])):
+        expect_bad_input(["run", "formed.toml", "--set", "press.compactions=[0.3]", "--set", setting, "-o", "refused"], words)
+        check(not pathlib.Path("refused/press.csv").exists(), f"{setting}: refused before it is pressed")
+
+
 PRESSING = ["--set", "grid.cells_through_strand=2", "--set", "grid.cell_aspect=6", "--set", "test.element_length_mm=2", "--set", "glue.compliance_t_mm_per_MPa=[0.0105]", "--set", "run.threads=2"]
 HILL = [word for kind in ("surface", "core") for word in ("--set", f"kinds.{kind}.law=hill")]
 
@@ -147,6 +154,7 @@ with scratch():
     periodic()
     cut()
     formed()
+    what_its_tests_cannot_use()
     pressed()
     refused()
 finish()

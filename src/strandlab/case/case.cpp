@@ -19,12 +19,6 @@ namespace {
 
 constexpr double kStates = 1e4;  // states are told apart in steps of compaction of 1/kStates
 
-std::vector<std::string> kind_names(const Case& c) {
-  std::vector<std::string> names;
-  for (const auto& kind : c.kinds) names.push_back(kind.name);
-  return names;
-}
-
 const KindSettings& find_kind(const Case& c, const std::string& name, const std::string& row) {
   for (const auto& kind : c.kinds) {
     if (kind.name == name) return kind;
@@ -94,6 +88,12 @@ void refuse_too_short(const Case& c, const Panel<2>& panel) {
 }
 
 }  // namespace
+
+std::vector<std::string> kind_names(const Case& c) {
+  std::vector<std::string> names;
+  for (const auto& kind : c.kinds) names.push_back(kind.name);
+  return names;
+}
 
 Case::Case() : kinds{{"surface", "poplar", 0, {150, 20, 15, 4.95}}, {"core", "poplar", 90, {25, 3, 10, 1}}} {
   kinds[0].yield_factor = 0.5;  // hot faces and a warm core, until the heat itself drives the press

@@ -129,6 +129,8 @@ std::vector<StrandKind> kinds_and_materials(const Case& c);
 // The mat of a case: read from its mat file, else formed with its seed. Throws InputError for a bad mat file, for rows
 // that would make a panel beyond the memory that is free, and for a plate's (plate.hpp).
 mat::Mat make_mat(const Case& c);
+// Its kinds of strand, in their order.
+std::vector<std::string> kind_names(const Case& c);
 // Its weight and what it is made of.
 Weight weigh(const Case& c, const mat::Mat& mat);
 // What a glue line of the case is called: the group of the bond-line result that gave its compliance, else

@@ -73,11 +73,11 @@ void check_hotpress(const Case& c, const std::function<void(const std::string&, 
   check("permeability.table", [&] { static_cast<void>(permeability_table(h.permeability_table)); });
   check("resin.face", [&] { static_cast<void>(find_resin(c, h.resin_face)); });
   check("resin.face_kinds", [&] {
-    std::vector<std::string> known;
-    for (const auto& kind : c.kinds) known.push_back(kind.name);
+    const auto known = kind_names(c);
     for (const auto& kind : h.face_kinds) {
       if (std::find(known.begin(), known.end(), kind) == known.end())
-        throw InputError(fmt::format("\"{}\" is no kind of strand of this case: {}", kind, quoted_list(known)));
+        throw InputError(
+            fmt::format("\"{}\" is no kind of strand of this case; its kinds: {}", kind, quoted_list(known)));
     }
   });
   check("resin.core", [&] { static_cast<void>(find_resin(c, h.resin_core)); });

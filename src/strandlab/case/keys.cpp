@@ -361,7 +361,7 @@ std::string with_name(std::string path, const std::string& name) {
 std::vector<std::string> instances(const Case& c, const std::string& section) {
   std::vector<std::string> names;
   if (section == "kinds.*") {
-    for (const auto& kind : c.kinds) names.push_back(kind.name);
+    names = kind_names(c);
   } else if (section == "materials.*") {
     for (const auto& material : c.materials) names.push_back(material.material.name);
   } else if (section == "resins.*") {

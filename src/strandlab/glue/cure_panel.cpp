@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
+#include "strandlab/core/polygon.hpp"
 #include "strandlab/glue/plan_grid.hpp"
-#include "strandlab/glue/polygon.hpp"
 #include "strandlab/glue/rules.hpp"
 
 namespace strandlab::glue {

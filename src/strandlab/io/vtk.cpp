@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "strandlab/core/markup.hpp"
 #include "strandlab/core/version.hpp"
 #include "strandlab/files/atomic_file.hpp"
 #include "strandlab/files/base64.hpp"
@@ -176,26 +177,6 @@ std::string cell_data(const Panel<Dim>& panel) {
          array("laid_angle_deg", per_point<float>(panel, in_plane)) + "</CellData>\n";
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 std::string vtk_file(const char* type, const std::string& body) {
   return fmt::format(
       "<?xml version=\"1.0\"?>\n<!-- strandlab {} -->\n"
@@ -258,7 +239,8 @@ void write_glue_vtu(const std::vector<GlueLinePoint>& points, const std::filesys
 void write_pvd(const std::vector<PvdEntry>& entries, const std::filesystem::path& file) {
   std::string body = "<Collection>\n";
   for (const auto& entry : entries) {
-    body += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.compaction, escaped(entry.file));
+    body += fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.compaction,
+                        escaped_markup(entry.file));
   }
   files::write_atomically(file, vtk_file("Collection", body + "</Collection>\n"));
 }

@@ -7,38 +7,22 @@
 #include <cmath>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/polygon.hpp"
 
 namespace strandlab::profile {
 namespace {
 
-using Outline = std::vector<Vec<2>>;  // of a convex polygon, in cells of the raster
-
-// The part of a polygon on one side of a line across an axis: sign (x - at) >= 0.
-Outline half_of(const Outline& outline, int axis, double at, double sign) {
-  Outline part;
-  for (std::size_t k = 0; k < outline.size(); ++k) {
-    const auto &a = outline[k], &b = outline[(k + 1) % outline.size()];
-    const double da = sign * (a[axis] - at), db = sign * (b[axis] - at);
-    if (da >= 0) part.push_back(a);
-    if ((da > 0 && db < 0) || (da < 0 && db > 0)) part.push_back(a + da / (da - db) * (b - a));
-  }
-  return part;
+// The part of a polygon in one row or column of cells.
+Polygon strip_of(const Polygon& outline, int axis, int cell) {
+  const Vec<2> up = Vec<2>::Unit(axis);
+  return cut(cut(outline, {-static_cast<double>(cell), up}), {cell + 1.0, -up});
 }
 
-Outline strip_of(const Outline& outline, int axis, int cell) {
-  return half_of(half_of(outline, axis, cell, 1), axis, cell + 1, -1);
+double area_of(const Polygon& outline) {
+  return std::abs(moments(outline).area);  // a strand's axes may go round either way
 }
 
-double area_of(const Outline& outline) {
-  double twice = 0;
-  for (std::size_t k = 0; k < outline.size(); ++k) {
-    const auto &a = outline[k], &b = outline[(k + 1) % outline.size()];
-    twice += a[0] * b[1] - a[1] * b[0];
-  }
-  return 0.5 * std::abs(twice);
-}
-
-std::array<int, 2> cells_over(const Outline& outline, int axis) {
+std::array<int, 2> cells_over(const Polygon& outline, int axis) {
   double low = outline.front()[axis], high = low;
   for (const auto& corner : outline) {
     low = std::min(low, corner[axis]);
@@ -54,7 +38,7 @@ int cell_in(int cell, int count, bool periodic) {
 
 // Spreads a mass evenly over the parallelogram with these edges about a centre, all in cells.
 void add(DensityMap& map, const Vec<2>& centre, const Vec<2>& a, const Vec<2>& b, double mass) {
-  const Outline outline{centre - (a + b) / 2, centre + (a - b) / 2, centre + (a + b) / 2, centre - (a - b) / 2};
+  const Polygon outline{centre - (a + b) / 2, centre + (a - b) / 2, centre + (a + b) / 2, centre - (a - b) / 2};
   const double whole = area_of(outline);
   if (!(whole > 0)) return;
   const auto [first_row, last_row] = cells_over(outline, 1);

@@ -46,12 +46,7 @@ Stiffness stiffness_of(const std::string& test, double compaction, const std::ve
   return s;
 }
 
-std::string short_label(const std::string& test) {
-  const std::string label = vtest::label(vtest::kind_from_name(test));
-  return label.substr(0, label.find(" ("));
-}
-
-// "costs 12 % of", or "adds 3 % to".
+// "takes 12 % off", or "adds 3 % to".
 std::string change(double from, double to) {
   const double lost = 100 * (1 - to / from);
   return lost >= 0 ? fmt::format("takes {:.0f} % off", lost) : fmt::format("adds {:.0f} % to", -lost);
@@ -68,6 +63,11 @@ std::string lower(std::string text) {
 }
 
 }  // namespace
+
+std::string short_label(const std::string& test) {
+  const std::string label = vtest::label(vtest::kind_from_name(test));
+  return label.substr(0, label.find(" ("));
+}
 
 double highest_stress_MPa(const std::vector<press::Record>& records) {
   return records.empty() ? 0 : at_highest_stress(records).stress_MPa;

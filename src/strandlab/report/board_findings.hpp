@@ -18,6 +18,9 @@ inline constexpr double kHotPressMPa = 6;  // what hot presses of panel mills gi
 inline constexpr double kFlatProfile =
     .05;  // outer quarters over the core, less one: below it a profile is flat. Judgement
 
+// "Bending by end rotation" of "Bending by end rotation (...)": what a virtual test is called in a sentence.
+std::string short_label(const std::string& test);
+
 // Highest mean stress of the platens, MPa; 0 without records.
 double highest_stress_MPa(const std::vector<press::Record>& records);
 

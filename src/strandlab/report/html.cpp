@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "strandlab/core/error.hpp"
+#include "strandlab/core/markup.hpp"
 #include "strandlab/core/version.hpp"
 #include "strandlab/files/text_file.hpp"
 
@@ -70,7 +71,7 @@ std::string filled_page(const std::string& page, const Sheet& sheet, const nlohm
   }
   std::string filled;
   std::size_t behind = 0;
-  for (const auto& [place, content] : {std::pair{"/*strandlab-title*/", escaped(sheet.title)},
+  for (const auto& [place, content] : {std::pair{"/*strandlab-title*/", escaped_markup(sheet.title)},
                                        {"<!--strandlab-sheet-->", to_html(sheet)},
                                        {"/*strandlab-data*/", json}}) {
     const auto at = page.find(place, behind);

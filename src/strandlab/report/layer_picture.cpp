@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "strandlab/core/markup.hpp"
 #include "strandlab/report/colour_map.hpp"
 
 namespace strandlab::report {
@@ -16,19 +17,6 @@ constexpr double kMargin = 60;   // around it, for axes and title
 std::string hex(const Colour& c) {
   const auto byte = [](double value) { return static_cast<int>(std::lround(255 * value)); };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(c.red), byte(c.green), byte(c.blue));
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char ch : text) {
-    if (ch == '&')
-      out += "&amp;";
-    else if (ch == '<')
-      out += "&lt;";
-    else
-      out += ch;
-  }
-  return out;
 }
 
 // The strand and those of its images that may reach into the window.
@@ -86,7 +74,7 @@ std::string layer_picture(const mat::PlateMat& mat, std::size_t layer, const std
   svg += label(
       kMargin, kMargin - 20, "start",
       fmt::format("layer {}, {}: {} strands, {:.0f} % of the window; colour: angle from {:g}°, blue -{}° to red {}°",
-                  layer + 1, escaped(role), mat.layers[layer].strands.size(),
+                  layer + 1, escaped_markup(role), mat.layers[layer].strands.size(),
                   100 * area / (mat.length_mm * mat.width_mm), kind_angle, kWidestAngle_deg, kWidestAngle_deg));
   svg += label(kMargin, kMargin + height + 22, "middle", "0");
   svg += label(kMargin + width, kMargin + height + 22, "middle", fmt::format("{:g}", mat.length_mm));

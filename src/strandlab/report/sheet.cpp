@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "strandlab/core/markup.hpp"
 #include "strandlab/report/glossary.hpp"
 
 namespace strandlab::report {
@@ -18,7 +19,7 @@ using Told = std::set<std::string>;
 
 // As HTML, a per cent sign on the line of its number.
 std::string set_in_type(const std::string& text) {
-  auto html = escaped(text);
+  auto html = escaped_markup(text);
   for (auto at = html.find(" %"); at != std::string::npos; at = html.find(" %", at)) html.replace(at, 1, "\u00a0");
   return html;
 }
@@ -39,9 +40,9 @@ std::string html_of_header(const Sheet& sheet, Told& told) {
   auto html = fmt::format(
       "<header class=\"page-head\"><div><p class=\"brand\">Strandlab {}</p><h1>{}</h1></div></header>\n"
       "<div class=\"about\"><dl class=\"board\">",
-      html_of_chip(sheet), escaped(sheet.title));
+      html_of_chip(sheet), escaped_markup(sheet.title));
   for (const auto& fact : sheet.board)
-    html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", escaped(fact.name), in_words(fact.text, told));
+    html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", escaped_markup(fact.name), in_words(fact.text, told));
   html += "</dl>";
   for (const auto& line : sheet.limits) html += fmt::format("<p class=\"limit\">{}</p>\n", in_words(line, told));
   return html + "</div>\n";
@@ -51,8 +52,9 @@ std::string html_of_headlines(const Sheet& sheet, Told& told) {
   if (sheet.headlines.empty()) return {};
   std::string html = "<dl class=\"tiles\">";
   for (const auto& h : sheet.headlines) {
-    html += fmt::format("<div class=\"tile\"><dt>{}</dt><dd><b>{}</b> <span>{}</span><p>{}</p></dd></div>",
-                        escaped(h.name), escaped(h.value), in_words(h.unit, told), in_words(h.context, told));
+    html +=
+        fmt::format("<div class=\"tile\"><dt>{}</dt><dd><b>{}</b> <span>{}</span><p>{}</p></dd></div>",
+                    escaped_markup(h.name), escaped_markup(h.value), in_words(h.unit, told), in_words(h.context, told));
   }
   return html + "</dl>\n";
 }
@@ -66,8 +68,8 @@ std::string html_of_item(const Finding& f, bool first_warning, Told& told) {
   const auto& look = kLooks[static_cast<std::size_t>(f.level)];
   std::string more;
   if (!f.chart.empty())
-    more += fmt::format(" <a href=\"#chart-{0}\" aria-label=\"Chart: {0}\">chart</a>", escaped(f.chart));
-  if (!f.docs.empty()) more += fmt::format(" <cite>{}</cite>", escaped(f.docs));
+    more += fmt::format(" <a href=\"#chart-{0}\" aria-label=\"Chart: {0}\">chart</a>", escaped_markup(f.chart));
+  if (!f.docs.empty()) more += fmt::format(" <cite>{}</cite>", escaped_markup(f.docs));
   return fmt::format(
       "<li class=\"{}\"{}><span class=\"mark\" aria-hidden=\"true\">{}</span><span><span class=\"sr\">{}</span>{}{}"
       "</span></li>\n",
@@ -95,7 +97,7 @@ std::string html_of_findings(const Sheet& sheet, Told& told) {
 
 std::string html_of_table(const Sheet::Table& t) {
   auto html = fmt::format("<div class=\"card numbers\" id=\"{}\"><table><caption>{}</caption><thead><tr>",
-                          escaped(t.id), escaped(t.caption));
+                          escaped_markup(t.id), escaped_markup(t.caption));
   for (const auto& column : t.columns) html += fmt::format("<th scope=\"col\">{}</th>", set_in_type(column));
   html += "</tr></thead><tbody>";
   for (const auto& row : t.rows) {
@@ -131,29 +133,6 @@ std::string shown(double value, int significant) {
   if (point - first < 5) return text;  // four digits are read at once
   for (auto at = point; at > first + 3;) text.insert(at -= 3, kNarrowSpace);
   return text;
-}
-
-std::string escaped(const std::string& text) {
-  std::string html;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      default:
-        html += c;
-    }
-  }
-  return html;
 }
 
 std::string to_html(const Sheet& sheet) {

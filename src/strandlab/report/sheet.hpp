@@ -35,9 +35,6 @@ struct Sheet {
   std::vector<Table> tables;
 };
 
-// Text as HTML: whatever it says, it stays text.
-std::string escaped(const std::string& text);
-
 // The elements of the page's main part: a header with a chip that leads to the warnings, the headlines, the findings
 // about the board and those about the calculation, warnings first, and the tables. All texts of the sheet stay text.
 std::string to_html(const Sheet& sheet);

@@ -70,6 +70,19 @@ struct PlateJourney {
   std::string hash() const { return cases::case_hash(formed.c, Step::kPress); }
 };
 
+// As it is kept and tested: of half a mat with its mirror image, where the case says so.
+Panel<3> whole_of(const FormedPlate& formed, const Panel<3>& pressed) {
+  return formed.c.half == cases::PressedHalf::kMirrored ? with_mirror_image(pressed) : pressed;
+}
+
+// Before the press closes: what its tests could not use, or would not have the memory for.
+void refuse_untestable(const FormedPlate& formed) {
+  const auto options = cases::plate_options(formed.c);
+  const auto mat = whole_of(formed, formed.panel);
+  vtest::check(mat, options);
+  refuse_too_large(vtest::size_of_tests(mat, options));
+}
+
 void form_into(PlateJourney& journey) {
   auto& [formed, folder, log] = journey;
   const auto file = folder.file("mat.json");
@@ -87,11 +100,6 @@ void form_into(PlateJourney& journey) {
   log.say(fmt::format("mat: {} layers, {} strands, {:g} x {:g} mm -> {}", formed.mat.layers.size(),
                       formed.panel.strands.size(), formed.mat.length_mm, formed.mat.width_mm, file.string()));
   for (const auto& line : composition(cases::weigh(formed.c, formed.mat))) log.say("mat: " + line);
-}
-
-// As it is kept and tested: of half a mat with its mirror image, where the case says so.
-Panel<3> whole_of(const FormedPlate& formed, const Panel<3>& pressed) {
-  return formed.c.half == cases::PressedHalf::kMirrored ? with_mirror_image(pressed) : pressed;
 }
 
 // Files of the panel at each compaction and the checkpoints to go on from.
@@ -264,6 +272,7 @@ std::vector<report::PanelModulus> moduli_of(const FormedPlate& formed, const Tes
 
 void plate(const cases::Case& c, const Place& place, Observer& observer, Step last) {
   auto formed = form_plate(c);
+  if (last == Step::kTest) refuse_untestable(formed);
   const bool pressed = cases::is_pressed(formed.c);
   constexpr double kText = 1e6;  // bytes
   const double bytes = pressed ? cases::press_size(formed.c, formed.panel).disk_bytes : kText;

@@ -132,14 +132,15 @@ std::vector<Sheet::Fact> board_of(const cases::Case& c, const Json& record, cons
 }
 
 std::vector<std::string> limits_of(const cases::Case& c) {
-  return {
-      "Holds for: a section 1 mm deep in plane strain; stiffness, not strength; tests of the panel as frozen "
-      "between the platens.",
-      cases::presses_hot(c)
-          ? "Not yet compared with measured boards: trust differences between panels before absolute numbers; gas "
-            "and permeability rest on judgement (docs/hotpress.md)."
-          : "Not yet compared with measured boards: trust differences between panels before absolute numbers "
-            "(docs/verification.md)."};
+  return {fmt::format(
+              "Holds for: a section 1 mm deep in plane strain; stiffness, not strength; tests of the panel as {}.",
+              cases::presses_hot(c) && c.hotpress.kept == "opened" ? "it came out of the press, cold and conditioned"
+                                                                   : "frozen between the platens"),
+          cases::presses_hot(c)
+              ? "Not yet compared with measured boards: trust differences between panels before absolute numbers; gas "
+                "and permeability rest on judgement (docs/hotpress.md)."
+              : "Not yet compared with measured boards: trust differences between panels before absolute numbers "
+                "(docs/verification.md)."};
 }
 
 // ---- The headline numbers -------------------------------------------------------------------------------------------
@@ -183,11 +184,6 @@ Tests last_tests(const Json& record) {
   return tests;
 }
 
-std::string capital_name(const std::string& test) {
-  const std::string label = vtest::label(vtest::kind_from_name(test));
-  return label.substr(0, label.find(" ("));
-}
-
 bool is_bending(const std::string& test) {
   return test.rfind("bending", 0) == 0;
 }
@@ -213,7 +209,7 @@ Sheet::Headline headline_of(const std::string& test, const Tests& tests, const c
     if (std::find(rows.begin(), rows.end(), kind.name) != rows.end()) stiffest = std::max(stiffest, kind.material.E_L);
   }
   if (stiffest > 0) context.push_back(fmt::format("the strands' own E along the grain is {}", shown(1e-3 * stiffest)));
-  return {capital_name(test) + " modulus", shown(1e-3 * of(glue).value_or(std::nan(""))),
+  return {report::short_label(test) + " modulus", shown(1e-3 * of(glue).value_or(std::nan(""))),
           fmt::format("GPa, glue: {}", cases::name_of_glue(c, glue)), fmt::format("{}", fmt::join(context, "; "))};
 }
 
@@ -270,7 +266,7 @@ Sheet::Table states_table(const Json& record) {
 
 // States down, glues across.
 Sheet::Table modulus_table(const std::string& test, const cases::Case& c, const Json& record) {
-  Sheet::Table table{"table-modulus-" + test, capital_name(test) + " modulus, MPa", {"density, kg/m³"}, {}};
+  Sheet::Table table{"table-modulus-" + test, report::short_label(test) + " modulus, MPa", {"density, kg/m³"}, {}};
   for (const double compliance : c.test.compliance_t_mm_per_MPa)
     table.columns.push_back(cases::name_of_glue(c, std::max(compliance, 0.0)));
   const auto& kept = part(record, "/states");

@@ -12,7 +12,6 @@
 #include "strandlab/vtest/vtest.hpp"
 
 namespace strandlab::vtest {
-namespace {
 
 void check(const Panel<3>& panel, const PlateOptions& options) {
   if (panel.strands.empty()) throw InputError("the panel has no strands to test");
@@ -22,8 +21,6 @@ void check(const Panel<3>& panel, const PlateOptions& options) {
     throw InputError(fmt::format("elements {} mm long: a positive length is needed", options.element_length_mm));
   }
 }
-
-}  // namespace
 
 PlateSize size_of_tests(const Panel<3>& panel, const PlateOptions& options) {
   PlateSize size;

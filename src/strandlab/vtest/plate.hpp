@@ -58,6 +58,9 @@ struct PlateResult {
   std::vector<std::string> warnings;                                // plain sentences
 };
 
+// Refuses options that no panel of this mat could be tested with, before it is pressed. Throws InputError.
+void check(const Panel<3>& mat, const PlateOptions& options);
+
 // What the tests of a panel will take: unknowns; memory and time of one thread by fits to CHOLMOD's factors of such
 // panels.
 struct PlateSize {

@@ -1,6 +1,6 @@
-#include "strandlab/glue/polygon.hpp"
+#include "strandlab/core/polygon.hpp"
 
-namespace strandlab::glue {
+namespace strandlab {
 
 Polygon cut(const Polygon& polygon, const HalfPlane& kept) {
   Polygon left;
@@ -36,4 +36,4 @@ Moments moments(const Polygon& polygon) {
   return sum;
 }
 
-}  // namespace strandlab::glue
+}  // namespace strandlab

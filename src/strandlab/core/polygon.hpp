@@ -5,7 +5,7 @@
 
 #include "strandlab/core/types.hpp"
 
-namespace strandlab::glue {
+namespace strandlab {
 
 // Corners counter-clockwise; fewer than three: nothing is left.
 using Polygon = std::vector<Vec<2>>;
@@ -31,4 +31,4 @@ struct Moments {
 };
 Moments moments(const Polygon& polygon);
 
-}  // namespace strandlab::glue
+}  // namespace strandlab
