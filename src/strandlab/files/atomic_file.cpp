@@ -83,10 +83,8 @@ void sync_folder(const fs::path& folder) {
 // Opens a new file beside `file`. Another process of the same number, on another machine or before a kill, may have the
 // name: then the next number is tried.
 std::pair<fs::path, Descriptor> open_temporary(const fs::path& file) {
-  static std::atomic<unsigned> number{0};
   while (true) {
-    fs::path temporary = file;
-    temporary += fmt::format(".{}-{}.tmp", ::getpid(), ++number);
+    fs::path temporary = temporary_name(file);
     Descriptor fd(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (fd.valid()) return {std::move(temporary), std::move(fd)};
     if (errno != EEXIST) fail(file, "cannot create a file in that folder", errno);
@@ -144,6 +142,13 @@ void make_folder(const fs::path& folder) {
     throw InputError(
         fmt::format("cannot make the folder {}: {}; choose another with -o", folder.string(), error.message()));
   }
+}
+
+fs::path temporary_name(const fs::path& file) {
+  static std::atomic<unsigned> number{0};
+  fs::path temporary = file;
+  temporary += fmt::format(".{}-{}.tmp", ::getpid(), ++number);
+  return temporary;
 }
 
 bool is_temporary(const fs::path& file) {

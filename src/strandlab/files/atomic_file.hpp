@@ -18,7 +18,10 @@ void write_atomically(const std::filesystem::path& file, std::string_view bytes,
 // Makes a folder for results, with those above it; one that is there stays. Throws InputError where that cannot be.
 void make_folder(const std::filesystem::path& folder);
 
-// Whether a file has the name of a temporary one, "<file>.<process>-<number>.tmp": what a killed program leaves.
+// A name beside `file` that no other thread or running process of this machine uses: "<file>.<process>-<number>.tmp".
+std::filesystem::path temporary_name(const std::filesystem::path& file);
+
+// Whether a file has such a name: what a killed program leaves.
 bool is_temporary(const std::filesystem::path& file);
 
 // Removes the temporary files in `folder`, not below it, that were made by processes of this machine which run no more

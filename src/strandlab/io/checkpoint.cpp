@@ -505,12 +505,12 @@ bool CheckpointStore::exists() const {
 void CheckpointStore::keep_newest() const {
   std::error_code error;
   if (!std::filesystem::exists(newest(), error)) return;
-  const std::filesystem::path link = folder_ / "checkpoint.previous.h5.tmp";
-  std::filesystem::remove(link, error);
+  const auto link = files::temporary_name(previous());
   std::filesystem::create_hard_link(newest(), link, error);
   const bool linked = !error;  // some file systems know no hard links
   std::filesystem::rename(linked ? link : newest(), previous(), error);
   if (error) throw RunError(fmt::format("cannot write {}: {}", previous().string(), error.message()));
+  std::filesystem::remove(link, error);  // renaming one name of a file over another of the same file leaves both
 }
 
 template <int Dim>

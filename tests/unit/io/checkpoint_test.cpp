@@ -411,6 +411,16 @@ TEST_F(Store, KeepsTheLastTwo) {
   EXPECT_TRUE(warnings_.empty());
 }
 
+// Killed after the newest file took its second name and before the next one took its first: both names are one file.
+TEST_F(Store, LeavesNoThirdNameWhenBothAreOneFile) {
+  store_.save(at(1));
+  std::filesystem::create_hard_link(store_.newest(), store_.previous());
+  store_.save(at(2));
+  EXPECT_EQ(read_checkpoint<2>(store_.newest(), kHash).snapshots_done, 2);
+  EXPECT_EQ(read_checkpoint<2>(store_.previous(), kHash).snapshots_done, 1);
+  EXPECT_EQ(folder_.files(), 2U);
+}
+
 TEST_F(Store, FallsBackToThePreviousOneWithAWarning) {
   store_.save(at(1));
   store_.save(at(2));
