@@ -9,7 +9,7 @@
 #include "strandlab/io/vtk.hpp"
 #include "strandlab/panel/lumped.hpp"
 #include "strandlab/report/frames.hpp"
-#include "strandlab/vtest/window.hpp"
+#include "strandlab/vtest/specimen.hpp"
 #include "support/strands.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -46,7 +46,7 @@ struct Patch {
   }
 };
 
-Patch make_patch(const Strand<3>& strand, Side side, double spacing) {
+Patch make_patch(const Strand<3>& strand, StrandFace face, double spacing) {
   Patch patch;
   for (int a = 0; a < 2; ++a) {
     const auto k = static_cast<std::size_t>(a);
@@ -56,14 +56,14 @@ Patch make_patch(const Strand<3>& strand, Side side, double spacing) {
     patch.points_per_cell[a] = static_cast<double>(strand.lattice.counts[k]) / patch.cells.counts[k];
   }
   const auto at_corners = corners(strand);
-  const double through = side == Side::kTop ? strand.lattice.counts[2] : 0;
+  const double through = face == StrandFace::kTop ? strand.lattice.counts[2] : 0;
   for (std::size_t c = 0; c < patch.cells.corner_count(); ++c) {
     const auto [i, j] = patch.cells.place_of_corner(c);
     patch.corner.push_back(strand.lattice.between_corners(
         at_corners, Vec<3>(i * patch.points_per_cell[0], j * patch.points_per_cell[1], through)));
   }
   patch.normal.assign(patch.corner.size(), Vec<3>::Zero());
-  const double sense = side == Side::kTop ? 1 : -1;
+  const double sense = face == StrandFace::kTop ? 1 : -1;
   for (std::size_t f = 0; f < patch.cells.size(); ++f) {
     const auto around = patch.cells.cell(f);
     const Vec<3> outward =
@@ -187,10 +187,10 @@ Moments facing_part(const Polygon& share, const Vec<2>& at, const std::vector<Op
   return sum;
 }
 
-FacePoint<3> point_on(const Patch& patch, const Vec<2>& at, int strand, Side side) {
+FacePoint<3> point_on(const Patch& patch, const Vec<2>& at, int strand, StrandFace face) {
   FacePoint<3> point;
   point.strand = strand;
-  point.side = side;
+  point.face = face;
   point.place = at.cwiseProduct(patch.points_per_cell);
   point.position = patch.position(at);
   return point;
@@ -251,8 +251,8 @@ class Patches {
   std::vector<PlanBox> make_patches(const Panel<3>& panel, double spacing) {
     std::vector<PlanBox> boxes;
     for (const auto& strand : panel.strands) {
-      bottoms_.push_back(make_patch(strand, Side::kBottom, spacing));
-      tops_.push_back(make_patch(strand, Side::kTop, spacing));
+      bottoms_.push_back(make_patch(strand, StrandFace::kBottom, spacing));
+      tops_.push_back(make_patch(strand, StrandFace::kTop, spacing));
       thickness_.push_back(thickness_now(bottoms_.back(), tops_.back()));
       boxes.push_back(plan_box(bottoms_.back()));
     }
@@ -307,9 +307,9 @@ void append_points(const Patches& patches, std::size_t a, const CuringOptions& o
       const auto there = meet(top, here, *other.patch, other.shift, m.place + m.by_place * (here - at), other.beyond);
       if (!there) continue;
       GluePoint<3> point;
-      point.a = point_on(top, here, static_cast<int>(a), Side::kTop);
+      point.a = point_on(top, here, static_cast<int>(a), StrandFace::kTop);
       const Vec<2> place = other.patch->clamped(there->place);
-      point.b = point_on(*other.patch, place, other.image.box, Side::kBottom);
+      point.b = point_on(*other.patch, place, other.image.box, StrandFace::kBottom);
       point.b.image = other.image.image;
       point.b.position += other.shift;
       point.normal = (top.normal_at(here) - other.patch->normal_at(place)).normalized();

@@ -41,18 +41,18 @@ double cross(const Vec<2>& a, const Vec<2>& b) {
   return a[0] * b[1] - a[1] * b[0];
 }
 
-Face make_face(const Strand<2>& strand, Side side) {
+Face make_face(const Strand<2>& strand, StrandFace which) {
   const auto position = corners(strand);
   Face face;
-  face.sense = side == Side::kTop ? 1 : -1;
-  for (const auto c : strand.lattice.face_corners(side == Side::kTop ? kTop<2> : kBottom<2>)) {
+  face.sense = which == StrandFace::kTop ? 1 : -1;
+  for (const auto c : strand.lattice.face_corners(which == StrandFace::kTop ? kTop<2> : kBottom<2>)) {
     face.corner.push_back(position[c]);
   }
   face.normal.assign(face.corner.size(), Vec<2>::Zero());
   face.arc.assign(face.corner.size(), 0.0);
   for (int i = 0; i < face.segments(); ++i) {
     const Vec<2> d = face.corner[i + 1] - face.corner[i];
-    const Vec<2> outward = side == Side::kTop ? Vec<2>(-d[1], d[0]) : Vec<2>(d[1], -d[0]);
+    const Vec<2> outward = which == StrandFace::kTop ? Vec<2>(-d[1], d[0]) : Vec<2>(d[1], -d[0]);
     face.normal[i] += outward;
     face.normal[i + 1] += outward;
     face.arc[i + 1] = face.arc[i] + d.norm();
@@ -156,10 +156,10 @@ std::vector<std::pair<double, double>> contact_stretches(const Pair& pair) {
   return stretches;
 }
 
-FacePoint<2> face_point(const Face& face, int strand, Side side, double s) {
+FacePoint<2> face_point(const Face& face, int strand, StrandFace which, double s) {
   FacePoint<2> point;
   point.strand = strand;
-  point.side = side;
+  point.face = which;
   point.segment = face.segment_of(s);
   point.xi = s - point.segment;
   point.position = face.position(s);
@@ -177,7 +177,7 @@ double quality_at(const Panel<2>& panel, const FacePoint<2>& at) {
   const auto& strand = panel.strands[static_cast<std::size_t>(at.strand)];
   if (strand.points.bond_quality.empty()) return 1;
   return strand.points
-      .bond_quality[strand.lattice.point({at.segment, at.side == Side::kTop ? strand.lattice.counts[1] - 1 : 0})];
+      .bond_quality[strand.lattice.point({at.segment, at.face == StrandFace::kTop ? strand.lattice.counts[1] - 1 : 0})];
 }
 
 // Resin on the faces of a panel.
@@ -203,7 +203,7 @@ class Resin {
   double covered(const FacePoint<2>& at, double before, double after) const {
     const auto strand = static_cast<std::size_t>(at.strand);
     const double place = (at.segment + at.xi) * lengths_[strand];
-    return spots_[2 * strand + (at.side == Side::kTop ? 1 : 0)].covered(place - before, place + after);
+    return spots_[2 * strand + (at.face == StrandFace::kTop ? 1 : 0)].covered(place - before, place + after);
   }
   const Coverage& coverage_;
   std::vector<double> lengths_;  // mm, of a segment, by strand
@@ -218,8 +218,8 @@ void append_points(const Panel<2>& panel, const Resin& resin, const Pair& pair, 
     const auto other = glued(pair, s);
     if (!other) continue;  // a gap shorter than the sampling of contact_stretches
     GluePoint<2> point;
-    point.a = face_point(pair.a, line.strand_a, Side::kTop, s);
-    point.b = face_point(pair.b, line.strand_b, Side::kBottom, *other);
+    point.a = face_point(pair.a, line.strand_a, StrandFace::kTop, s);
+    point.b = face_point(pair.b, line.strand_b, StrandFace::kBottom, *other);
     point.normal = (pair.a.normal_at(s) - pair.b.normal_at(*other)).normalized();
     point.gap = (point.b.position - point.a.position).dot(point.normal);
     const double from = std::max(s - 0.5 * step, line.first), to = std::min(s + 0.5 * step, line.last);
@@ -256,8 +256,8 @@ struct Faces {
 Faces make_faces(const Panel<2>& panel) {
   Faces faces;
   for (const auto& strand : panel.strands) {
-    faces.tops.push_back(make_face(strand, Side::kTop));
-    faces.bottoms.push_back(make_face(strand, Side::kBottom));
+    faces.tops.push_back(make_face(strand, StrandFace::kTop));
+    faces.bottoms.push_back(make_face(strand, StrandFace::kBottom));
     faces.top_boxes.push_back(bounding_box(faces.tops.back()));
     faces.bottom_boxes.push_back(bounding_box(faces.bottoms.back()));
   }
@@ -318,8 +318,8 @@ double facing_length(const Panel<2>& panel) {
   for (const auto& strand : panel.strands) top_row = std::max(top_row, strand.row);
   double length = 0;
   for (const auto& strand : panel.strands) {
-    if (strand.row < top_row) length += make_face(strand, Side::kTop).arc.back();
-    if (strand.row > 0) length += make_face(strand, Side::kBottom).arc.back();
+    if (strand.row < top_row) length += make_face(strand, StrandFace::kTop).arc.back();
+    if (strand.row > 0) length += make_face(strand, StrandFace::kBottom).arc.back();
   }
   return length;
 }

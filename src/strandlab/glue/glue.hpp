@@ -9,7 +9,7 @@
 
 namespace strandlab::glue {
 
-enum class Side { kBottom, kTop };
+enum class StrandFace { kBottom, kTop };
 
 // A material point of a strand's top or bottom face.
 template <int Dim>
@@ -20,7 +20,7 @@ struct FacePoint;
 template <>
 struct FacePoint<2> {
   int strand = 0;
-  Side side = Side::kTop;
+  StrandFace face = StrandFace::kTop;
   int segment = 0;
   double xi = 0;
   Vec<2> position;  // mm
@@ -31,7 +31,7 @@ struct FacePoint<2> {
 template <>
 struct FacePoint<3> {
   int strand = 0;
-  Side side = Side::kTop;
+  StrandFace face = StrandFace::kTop;
   Vec<2> place = Vec<2>::Zero();
   std::array<int, 2> image{};
   Vec<3> position = Vec<3>::Zero();  // mm, of the image

@@ -370,7 +370,7 @@ void StrandMechanics::meet(const std::vector<Reading>& cells) {
       const auto s = static_cast<std::size_t>(face->strand);
       const int columns = panel_.strands[s].lattice.counts[0];
       const auto at =
-          first[s] + static_cast<std::size_t>(face->segment + (face->side == glue::Side::kTop ? columns : 0));
+          first[s] + static_cast<std::size_t>(face->segment + (face->face == glue::StrandFace::kTop ? columns : 0));
       if (met_[at] == kApart) met_[at] = strength_[at];
     }
   }

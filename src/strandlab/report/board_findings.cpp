@@ -65,7 +65,7 @@ std::string lower(std::string text) {
 }  // namespace
 
 std::string short_label(const std::string& test) {
-  const std::string label = vtest::label(vtest::kind_from_name(test));
+  const std::string label = vtest::label(vtest::test_from_name(test));
   return label.substr(0, label.find(" ("));
 }
 

@@ -42,7 +42,7 @@ std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows, c
     const auto add = [&](const char* model, double modulus) {
       theory.push_back({m.compaction, model, m.test, m.compliance_t_mm_per_MPa, modulus});
     };
-    switch (vtest::closed_form(vtest::kind_from_name(m.test))) {  // no default: the compiler asks for a new one
+    switch (vtest::closed_form(vtest::test_from_name(m.test))) {  // no default: the compiler asks for a new one
       case vtest::ClosedForm::kRuleOfMixtures: {
         add(kRuleOfMixtures, theory::tension_modulus_MPa(rows, m.compaction, off_axis));
         if (!bridged) break;

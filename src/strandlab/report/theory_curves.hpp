@@ -25,7 +25,7 @@ bool depends_on_glue(const std::string& model);
 
 // For each simulated modulus those of the models: tension by rule of mixtures and, where rows along the panel have gaps
 // that strands bridge through glue, by shear-lag; bending as a laminated beam. Rows off the grain as the simulated
-// ones, by `off_axis`. Throws as the models, and InputError for a test that is no vtest::Kind.
+// ones, by `off_axis`. Throws as the models, and InputError for a test that is no vtest::TestKind.
 std::vector<TheoryModulus> theory_moduli(const std::vector<theory::Row>& rows, const std::vector<PanelModulus>& moduli,
                                          wood::OffAxis off_axis);
 

@@ -112,7 +112,7 @@ Json words(const cases::Case& c) {
     const double taken = glue::taken(compliance);
     glues.push_back({{"compliance_t_mm_per_MPa", taken}, {"name", cases::name_of_glue(c, taken)}});
   }
-  for (const auto& name : vtest::kind_names()) tests[name] = vtest::label(vtest::kind_from_name(name));
+  for (const auto& name : vtest::test_names()) tests[name] = vtest::label(vtest::test_from_name(name));
   for (const auto* name : {"grain_angle_deg", "strand_thickness_strain"}) {
     const auto w = report::words_of(name);
     quantities[name] = {{"title", w.title}, {"axis", w.axis}, {"factor", w.factor}};

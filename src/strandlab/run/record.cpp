@@ -75,7 +75,7 @@ Json to_json(const vtest::Modulus& m) {
 
 vtest::Modulus modulus_from(const Json& json) {
   vtest::Modulus m;
-  m.kind = vtest::kind_from_name(json.at("test"));
+  m.kind = vtest::test_from_name(json.at("test"));
   m.compliance_t_mm_per_MPa = json.at("compliance_t_mm_per_MPa");
   m.modulus_MPa = json.at("modulus_MPa");
   m.reaction_modulus_MPa = json.at("reaction_modulus_MPa");

@@ -139,15 +139,15 @@ FaceNodes locate(const Mesh<2>& mesh, const glue::FacePoint<2>& point) {
   const auto& part = mesh.strands[mesh.mesh_of_strand[point.strand]];
   const double s = (point.segment + point.xi) / part.points_per_element[0];
   const int i = std::clamp(static_cast<int>(s), 0, part.along() - 1);
-  const int j = point.side == glue::Side::kTop ? part.through() : 0;
-  const int inward = point.side == glue::Side::kTop ? -(part.along() + 1) : part.along() + 1;
+  const int j = point.face == glue::StrandFace::kTop ? part.through() : 0;
+  const int inward = point.face == glue::StrandFace::kTop ? -(part.along() + 1) : part.along() + 1;
   return {part.node(i, j), part.node(i + 1, j), s - i, inward};
 }
 
 FacetNodes locate(const Mesh<3>& mesh, const glue::FacePoint<3>& point) {
   const auto& part =
       mesh.strands[static_cast<std::size_t>(mesh.mesh_of_strand[static_cast<std::size_t>(point.strand)])];
-  const int k = point.side == glue::Side::kTop ? part.through() : 0;
+  const int k = point.face == glue::StrandFace::kTop ? part.through() : 0;
   std::array<int, 2> cell{};
   Vec<2> place;
   for (int a = 0; a < 2; ++a) {

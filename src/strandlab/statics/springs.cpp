@@ -15,37 +15,37 @@ Vec<2> rotated(const Vec<2>& v) {
   return {-v[1], v[0]};
 }  // by +90 degrees
 
-// One side of a glue point: its displacement is (1 - xi) u[first] + xi u[second], and the line between the two nodes
-// gives the rotation.
-struct SidePoint {
+// Where a glue point holds on to one of its strands: the displacement there is (1 - xi) u[first] + xi u[second], and
+// the line between the two nodes gives the rotation.
+struct LinePoint {
   int first, second;
   double xi;
 };
 
-// The side of a glue point as a corner of an end plane, if it is (nearly) one: the line runs along the plane.
-std::optional<SidePoint> end_corner(const FaceNodes& face, const std::vector<bool>& at_end) {
+// That place as a corner of an end plane, if it is (nearly) one: the line runs along the plane.
+std::optional<LinePoint> end_corner(const FaceNodes& face, const std::vector<bool>& at_end) {
   constexpr double kNear = 0.1;  // of an element
-  if (face.xi < kNear && at_end[face.first]) return SidePoint{face.first, face.first + face.inward, 0};
-  if (face.xi > 1 - kNear && at_end[face.second]) return SidePoint{face.second, face.second + face.inward, 0};
+  if (face.xi < kNear && at_end[face.first]) return LinePoint{face.first, face.first + face.inward, 0};
+  if (face.xi > 1 - kNear && at_end[face.second]) return LinePoint{face.second, face.second + face.inward, 0};
   return std::nullopt;
 }
 
-Vec<2> position(const Mesh<2>& mesh, const SidePoint& side) {
-  return (1 - side.xi) * mesh.nodes[side.first] + side.xi * mesh.nodes[side.second];
+Vec<2> position(const Mesh<2>& mesh, const LinePoint& at) {
+  return (1 - at.xi) * mesh.nodes[at.first] + at.xi * mesh.nodes[at.second];
 }
 
 // Rotation of the line from node 1 to 2: omega = r . (u_2 - u_1)/|d|^2 with d from 1 to 2 and r = d turned by 90
 // degrees.
-void add_rotation(const Mesh<2>& mesh, const SidePoint& side, int first_dof, double factor, Row& row) {
-  const Vec<2> d = mesh.nodes[side.second] - mesh.nodes[side.first];
+void add_rotation(const Mesh<2>& mesh, const LinePoint& at, int first_dof, double factor, Row& row) {
+  const Vec<2> d = mesh.nodes[at.second] - mesh.nodes[at.first];
   const Vec<2> r = factor * rotated(d) / d.squaredNorm();
   row.segment<2>(first_dof) -= r;
   row.segment<2>(first_dof + 2) += r;
 }
 
-Spring<2> make_spring(const Mesh<2>& mesh, const SidePoint& a, const SidePoint& b, const Vec<2>& normal, double area) {
+Spring<2> make_spring(const Mesh<2>& mesh, const LinePoint& a, const LinePoint& b, const Vec<2>& normal, double area) {
   const Vec<2> arm = rotated(position(mesh, b) - position(mesh, a));
-  Row rotation = Row::Zero();  // mean of the two sides
+  Row rotation = Row::Zero();  // mean of the two strands
   add_rotation(mesh, a, 0, 0.5, rotation);
   add_rotation(mesh, b, 4, 0.5, rotation);
   const auto jump = [&](const Vec<2>& direction) {

@@ -39,6 +39,7 @@ bool runs_along(const Row& row);
 
 // --- a strand ---
 // Modulus of a bar cut at an angle to the grain, MPa: 1/E = c^4/E_L + (1/G_TL - 2 nu_LT/E_L) s^2 c^2 + s^4/E_T.
+// Jones, Mechanics of Composite Materials (1999), section 2.6; Le (2010), appendix 3.3.
 double off_axis_modulus_MPa(const wood::Material& material, double angle_deg);
 // Modulus along a plane-strain section through a strand at an angle, free through the thickness, MPa:
 // C11 - C13^2/C33 of the stiffness in strand axes.
@@ -56,7 +57,8 @@ double strand_modulus_MPa(const Row& row, OffAxis off_axis);
 // Homogenised rule of mixtures: mean over rows, by thickness, of modulus times solid fraction, over 1 - C. Le (2010)
 // Eq. 3.8, 3.9.
 double tension_modulus_MPa(const std::vector<Row>& rows, double compaction, OffAxis off_axis = OffAxis::kUncoupled);
-// Laminated beam: sum of E_i I_i of the rows over I, over 1 - C.
+// Laminated beam: sum of E_i I_i of the rows over I, over 1 - C. With two outer rows and an even core Le (2010),
+// Eq. 4.6 to 4.8.
 double bending_modulus_MPa(const std::vector<Row>& rows, double compaction, OffAxis off_axis = OffAxis::kUncoupled);
 // The same from row moduli that already contain their gaps; rows are equally thick where no thicknesses are given.
 double tension_of_moduli_MPa(const std::vector<double>& row_moduli, double compaction,
@@ -91,7 +93,8 @@ double shear_lag_panel_MPa(const std::vector<Row>& rows, const Matrix& matrix, d
                            double compaction, OffAxis off_axis = OffAxis::kUncoupled);
 
 // --- density ---
-// Mean density, kg/m^3: mean over rows, by thickness, of density times solid fraction, over 1 - C.
+// Mean density, kg/m^3: mean over rows, by thickness, of density times solid fraction, over 1 - C. Le (2010), Eq. 6.1
+// and what follows it.
 double density_kg_m3(const std::vector<Row>& rows, double compaction);
 // Modulus (MPa) of a panel of given density: tension modulus over density is the same at every compaction. Le Eq. 6.4.
 double modulus_at_density_MPa(const std::vector<Row>& rows, double density_kg_m3,

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "strandlab/vtest/window.hpp"
+#include "strandlab/vtest/specimen.hpp"
 
 namespace strandlab::vtest {
 namespace {

@@ -26,9 +26,9 @@ std::vector<Declaration<Options>> test_options() {
                              [](Options& o, const OptionValue& value) {
                                o.kinds.clear();
                                for (const auto& text : std::get<std::vector<std::string>>(value))
-                                 o.kinds.push_back(kind_from_name(text));
+                                 o.kinds.push_back(test_from_name(text));
                              },
-                             kind_names()};
+                             test_names()};
   return {std::move(kinds),
           declare("elements_through_strand", "", {.lo = 1, .hi = kMostElements},
                   "finite elements through the thickness of a strand", &Options::elements_through_strand),

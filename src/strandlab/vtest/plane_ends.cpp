@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "strandlab/vtest/plate_model.hpp"
-#include "strandlab/vtest/window.hpp"
+#include "strandlab/vtest/specimen.hpp"
 
 namespace strandlab::vtest {
 namespace {

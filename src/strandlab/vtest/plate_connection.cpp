@@ -6,7 +6,7 @@
 #include <cmath>
 #include <deque>
 
-#include "strandlab/vtest/window.hpp"
+#include "strandlab/vtest/specimen.hpp"
 
 namespace strandlab::vtest {
 namespace {

@@ -9,19 +9,19 @@
 #include "strandlab/glue/bond.hpp"
 #include "strandlab/vtest/kinds/test.hpp"
 #include "strandlab/vtest/model.hpp"
-#include "strandlab/vtest/window.hpp"
+#include "strandlab/vtest/specimen.hpp"
 
 namespace strandlab::vtest {
 namespace {
 
-bool wants(const Options& options, Kind kind) {
+bool wants(const Options& options, TestKind kind) {
   return std::find(options.kinds.begin(), options.kinds.end(), kind) != options.kinds.end();
 }
 
 // The kinds asked for, each once, in the order of their list.
-std::vector<Kind> asked_for(const Options& options) {
-  auto kinds = all_kinds();
-  std::erase_if(kinds, [&](Kind kind) { return !wants(options, kind); });
+std::vector<TestKind> asked_for(const Options& options) {
+  auto kinds = all_tests();
+  std::erase_if(kinds, [&](TestKind kind) { return !wants(options, kind); });
   return kinds;
 }
 
@@ -33,7 +33,7 @@ struct Factor {
 
 // A test that is asked for: its factor, and which of its load cases are the test's.
 struct Planned {
-  Kind kind;
+  TestKind kind;
   Setup setup;
   std::size_t factor;
   std::vector<std::size_t> loads;
@@ -54,7 +54,7 @@ std::size_t find_or_add(Items& items, Is is, Make make) {
 
 Plan make_plan(const Model& model, const Options& options) {
   Plan plan;
-  for (const Kind kind : asked_for(options)) {
+  for (const TestKind kind : asked_for(options)) {
     const auto& test = test_of(kind);
     Planned planned{kind, test.set_up(model, options), 0, {}};
     planned.factor = find_or_add(
@@ -98,7 +98,7 @@ std::vector<Modulus> carry_out(const Plan& plan, Model& model, double compliance
 void refuse_parts(const Model& model, const Options& options) {
   const auto kinds = asked_for(options);
   const bool in_one_piece =
-      std::any_of(kinds.begin(), kinds.end(), [](Kind kind) { return test_of(kind).in_one_piece; });
+      std::any_of(kinds.begin(), kinds.end(), [](TestKind kind) { return test_of(kind).in_one_piece; });
   if (!in_one_piece || model.connection.groups <= 1) return;
   throw InputError(
       fmt::format("bending on supports needs a panel in one piece; this one is in {} that no glue connects",
@@ -128,14 +128,14 @@ void check_bonds_and_elements(const std::vector<double>& compliances_t, double c
 
 void check(const Panel<2>& panel, const Options& options) {
   if (panel.strands.empty()) throw InputError("the panel has no strands to test");
-  if (options.kinds.empty()) throw InputError("no kind of test is asked for: give at least one of " + allowed_kinds());
+  if (options.kinds.empty()) throw InputError("no kind of test is asked for: give at least one of " + allowed_tests());
   check_bonds_and_elements(options.compliance_t_mm_per_MPa, options.compliance_n_mm_per_MPa,
                            options.elements_through_strand);
   if (!(options.perfect_bond >= 10 && options.perfect_bond <= 1e6)) {
     throw InputError(
         fmt::format("a perfect bond of {} times the wood's stiffness: 10 to 1e6 are possible", options.perfect_bond));
   }
-  for (const Kind kind : asked_for(options)) {
+  for (const TestKind kind : asked_for(options)) {
     if (test_of(kind).check_mat) test_of(kind).check_mat(panel);
   }
 }
@@ -153,7 +153,7 @@ void check_ends(const Panel<2>& mat, double compaction) {
 
 double needed_length_mm(const Options& options, double thickness_mm) {
   double needed = 0;
-  for (const Kind kind : asked_for(options)) {
+  for (const TestKind kind : asked_for(options)) {
     if (test_of(kind).needed_length_mm)
       needed = std::max(needed, test_of(kind).needed_length_mm(options, thickness_mm));
   }
@@ -162,7 +162,7 @@ double needed_length_mm(const Options& options, double thickness_mm) {
 
 Result measure(const Panel<2>& panel, const Options& options, const std::function<void()>& before_solve) {
   check(panel, options);
-  for (const Kind kind : asked_for(options)) {
+  for (const TestKind kind : asked_for(options)) {
     if (test_of(kind).check_panel) test_of(kind).check_panel(panel, options);
   }
   Result result;
@@ -183,7 +183,7 @@ Result measure(const Panel<2>& panel, const Options& options, const std::functio
     add_once(glue::remarks(bond), result.warnings);
     model.bonded.glue(bond, times);
     const auto moduli = carry_out(plan, model, compliance_t, before_solve, times, result);
-    for (const Kind kind : options.kinds) {
+    for (const TestKind kind : options.kinds) {
       result.moduli.push_back(
           *std::find_if(moduli.begin(), moduli.end(), [kind](const Modulus& m) { return m.kind == kind; }));
     }

@@ -16,17 +16,17 @@ namespace strandlab::vtest {
 // Closed form of the room theory that answers a test: rows that stretch alike, or that bend as one beam.
 enum class ClosedForm { kRuleOfMixtures, kLaminatedBeam };
 
-const char* name(Kind kind);   // "tension", "bending_3_point", ... (kinds/list.hpp)
-const char* label(Kind kind);  // for people: "Bending (end rotation)"
-ClosedForm closed_form(Kind kind);
-std::vector<std::string> kind_names();         // of all kinds
-Kind kind_from_name(const std::string& name);  // throws InputError with the allowed names
-std::string allowed_kinds();                   // those names, comma-separated
+const char* name(TestKind kind);   // "tension", "bending_3_point", ... (kinds/list.hpp)
+const char* label(TestKind kind);  // for people: "Bending (end rotation)"
+ClosedForm closed_form(TestKind kind);
+std::vector<std::string> test_names();             // of all kinds
+TestKind test_from_name(const std::string& name);  // throws InputError with the allowed names
+std::string allowed_tests();                       // those names, comma-separated
 
 inline constexpr int kMostElements = 48;  // through a strand
 
 struct Options {
-  std::vector<Kind> kinds{Kind::kTension, Kind::kBendingEndRotation};
+  std::vector<TestKind> kinds{TestKind::kTension, TestKind::kBendingEndRotation};
   std::vector<double> compliance_t_mm_per_MPa{0.0};  // 1/D_t of the glue lines (glue/bond.hpp)
   double compliance_n_mm_per_MPa = 0;                // 1/D_n
   int elements_through_strand = 3;
@@ -39,7 +39,7 @@ struct Options {
 };
 
 struct Modulus {
-  Kind kind = Kind::kTension;
+  TestKind kind = TestKind::kTension;
   double compliance_t_mm_per_MPa = 0;
   double modulus_MPa = 0;           // from the energy
   double reaction_modulus_MPa = 0;  // from the reaction (on supports: from the deflection); agrees to 1e-6

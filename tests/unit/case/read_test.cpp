@@ -149,7 +149,7 @@ TEST(CaseRead, BareWordsAreTexts) {
   const Case c = case_from_text(
       "", "panel.toml", {"press.sides=free", "test.kinds=[tension, bending_end_couple]", "mat.file=/data/a.json"});
   EXPECT_EQ(c.sides, mpm::Side::kFree);
-  EXPECT_EQ(c.test.kinds, (std::vector{vtest::Kind::kTension, vtest::Kind::kBendingEndCouple}));
+  EXPECT_EQ(c.test.kinds, (std::vector{vtest::TestKind::kTension, vtest::TestKind::kBendingEndCouple}));
   EXPECT_EQ(c.mat_file, "/data/a.json");
 }
 

@@ -49,8 +49,8 @@ TEST(Cure, GluesWhatFacesEachOther) {
   for (const auto& p : points) {
     EXPECT_EQ(p.a.strand, 0);
     EXPECT_EQ(p.b.strand, 1);
-    EXPECT_EQ(p.a.side, Side::kTop);
-    EXPECT_EQ(p.b.side, Side::kBottom);
+    EXPECT_EQ(p.a.face, StrandFace::kTop);
+    EXPECT_EQ(p.b.face, StrandFace::kBottom);
     EXPECT_NEAR((p.normal - Vec<2>(0, 1)).norm(), 0, 1e-12);
     EXPECT_NEAR((p.b.position - p.a.position).norm(), 0, 1e-9);
     EXPECT_NEAR(p.a.position[1], 0.8, 1e-9);
@@ -79,7 +79,7 @@ TEST(Cure, GivesTheInterpolationOnBothFaces) {
     for (const auto* side : {&p.a, &p.b}) {
       const auto& strand = panel.strands[side->strand];
       const auto at = corners(strand);
-      const int row = side->side == Side::kTop ? strand.lattice.counts[1] : 0;
+      const int row = side->face == StrandFace::kTop ? strand.lattice.counts[1] : 0;
       const auto corner = strand.lattice.corner({side->segment, row});
       const Vec<2> position = (1 - side->xi) * at[corner] + side->xi * at[corner + 1];
       EXPECT_NEAR((position - side->position).norm(), 0, 1e-12);

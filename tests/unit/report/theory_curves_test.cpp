@@ -35,8 +35,8 @@ TEST(TheoryCurves, EveryVirtualTestHasItsOwnModels) {
                                                                  {"bending_end_couple", beam},
                                                                  {"bending_3_point", beam},
                                                                  {"bending_4_point", beam}};
-  ASSERT_EQ(vtest::kind_names().size(), expected.size());
-  for (const auto& test : vtest::kind_names()) {
+  ASSERT_EQ(vtest::test_names().size(), expected.size());
+  for (const auto& test : vtest::test_names()) {
     ASSERT_TRUE(expected.count(test)) << test;
     std::vector<std::string> models;
     for (const auto& t : theory_of(test)) {

@@ -12,8 +12,8 @@ TestedState tested_state() {
   TestedState state;
   state.compaction = 0.1;
   state.wall_s = 0.3;
-  state.result.moduli = {{vtest::Kind::kTension, 0.0105, 1234.5678901234567, 1234.56, {}},
-                         {vtest::Kind::kBending3Point, 0, 900.1, 900.2, 950.3}};
+  state.result.moduli = {{vtest::TestKind::kTension, 0.0105, 1234.5678901234567, 1234.56, {}},
+                         {vtest::TestKind::kBending3Point, 0, 900.1, 900.2, 950.3}};
   state.result.strands = 12;
   state.result.floating_strands = 3;
   state.result.glued_fraction = 1. / 3;
@@ -33,7 +33,7 @@ TEST(TestedRecord, ComesBackBitForBit) {
   EXPECT_EQ(back.compaction, state.compaction);
   EXPECT_EQ(back.wall_s, state.wall_s);
   ASSERT_EQ(back.result.moduli.size(), 2);
-  EXPECT_EQ(back.result.moduli[0].kind, vtest::Kind::kTension);
+  EXPECT_EQ(back.result.moduli[0].kind, vtest::TestKind::kTension);
   EXPECT_EQ(back.result.moduli[0].modulus_MPa, state.result.moduli[0].modulus_MPa);
   EXPECT_EQ(back.result.moduli[1].shear_free_modulus_MPa, 950.3);
   EXPECT_EQ(back.result.glued_fraction, state.result.glued_fraction);

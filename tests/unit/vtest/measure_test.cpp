@@ -48,7 +48,7 @@ TEST(Measure, TakesBondsAsFarAsTheyHaveCured) {
   auto half = whole;
   for (auto& strand : half.strands) strand.points.bond_quality.assign(strand.size(), .5);
   Options options;
-  options.kinds = {Kind::kTension};
+  options.kinds = {TestKind::kTension};
   options.compliance_t_mm_per_MPa = {.01, 0};
   const auto given = measure(half, options);
   options.compliance_t_mm_per_MPa = {.0305, .0105};
@@ -58,13 +58,13 @@ TEST(Measure, TakesBondsAsFarAsTheyHaveCured) {
     EXPECT_NEAR(given.moduli[i].modulus_MPa / expected.moduli[i].modulus_MPa, 1, 1e-9);
 }
 
-TEST(Kind, HasANameThatLeadsBack) {
-  for (const Kind kind : {Kind::kTension, Kind::kBendingEndRotation, Kind::kBendingEndCouple, Kind::kBending3Point,
-                          Kind::kBending4Point}) {
-    EXPECT_EQ(kind_from_name(name(kind)), kind);
+TEST(TestKind, HasANameThatLeadsBack) {
+  for (const TestKind kind : {TestKind::kTension, TestKind::kBendingEndRotation, TestKind::kBendingEndCouple,
+                              TestKind::kBending3Point, TestKind::kBending4Point}) {
+    EXPECT_EQ(test_from_name(name(kind)), kind);
   }
-  EXPECT_EQ(kind_names().size(), 5U);
-  const auto message = message_of([] { kind_from_name("torsion"); });
+  EXPECT_EQ(test_names().size(), 5U);
+  const auto message = message_of([] { test_from_name("torsion"); });
   EXPECT_NE(message.find("torsion"), std::string::npos);
   EXPECT_NE(message.find("tension, bending_end_rotation, bending_end_couple, bending_3_point, bending_4_point"),
             std::string::npos);
@@ -85,12 +85,12 @@ TEST(Measure, GivesTheModulusOfTheWoodItself) {
 // By kind within compliance, in the order asked for.
 TEST(Measure, ReportsInTheOrderAskedFor) {
   Options options;
-  options.kinds = {Kind::kBendingEndCouple, Kind::kTension};
+  options.kinds = {TestKind::kBendingEndCouple, TestKind::kTension};
   options.compliance_t_mm_per_MPa = {0.05, 0};
   const auto result = measure(laminate(), options);
   ASSERT_EQ(result.moduli.size(), 4U);
-  EXPECT_EQ(result.moduli[0].kind, Kind::kBendingEndCouple);
-  EXPECT_EQ(result.moduli[1].kind, Kind::kTension);
+  EXPECT_EQ(result.moduli[0].kind, TestKind::kBendingEndCouple);
+  EXPECT_EQ(result.moduli[1].kind, TestKind::kTension);
   EXPECT_EQ(result.moduli[1].compliance_t_mm_per_MPa, 0.05);
   EXPECT_EQ(result.moduli[2].compliance_t_mm_per_MPa, 0);
   EXPECT_GT(result.unknowns, 0);
@@ -160,7 +160,7 @@ TEST(Measure, TellsHowFarGlueLinesSlide) {
   }
   options.compliance_t_mm_per_MPa = {0};
   for (const auto& s : measure(lap, options).slips) EXPECT_NEAR(s.slip_mm_per_strain, 0, 1e-3);
-  options.kinds = {Kind::kBendingEndRotation};
+  options.kinds = {TestKind::kBendingEndRotation};
   EXPECT_TRUE(measure(lap, options).slips.empty());
 }
 
@@ -169,7 +169,7 @@ TEST(Measure, TellsHowFarGlueLinesSlide) {
 TEST(Measure, RaisesGlueThatIsTooSoftToTheFloorAndSaysSo) {
   Options options;
   options.compliance_t_mm_per_MPa = {1e9};
-  options.kinds = {Kind::kTension};
+  options.kinds = {TestKind::kTension};
   const auto result = measure(panel_with({{0, 0, 12}, {1, 8, 20}}), options);
   EXPECT_NEAR(result.moduli[0].modulus_MPa, 1e-3 * 4 * 20 / 1.6, 1e-3 * 0.05);
   ASSERT_EQ(result.warnings.size(), 1U);
@@ -199,7 +199,7 @@ TEST(Measure, FeelsTheNormalCompliance) {
 // see the same.
 TEST(Measure, AppliesTheCoupleToStrandsThatReachTheLoadedEnd) {
   Options options;
-  options.kinds = {Kind::kBendingEndCouple};
+  options.kinds = {TestKind::kBendingEndCouple};
   const auto message = message_of([&] { measure(panel_with({{0, 0, 20}, {1, 0, 12}}), options); });
   EXPECT_NE(message.find("two strands at the loaded end"), std::string::npos);
   const auto with_short_top = measure(panel_with({{0, 0, 20}, {1, 0, 20}, {2, 0, 1}}), options);
@@ -212,11 +212,11 @@ TEST(Measure, AppliesTheCoupleToStrandsThatReachTheLoadedEnd) {
 // supports.
 TEST(Measure, BendsOnSupportsWhatIsLongEnough) {
   Options options;
-  options.kinds = {Kind::kBending4Point, Kind::kBending3Point, Kind::kTension};
+  options.kinds = {TestKind::kBending4Point, TestKind::kBending3Point, TestKind::kTension};
   options.span_to_thickness = 23;
   const auto result = measure(panel_with({{0, 0, 20}}), options);
-  EXPECT_EQ(result.moduli[0].kind, Kind::kBending4Point);
-  EXPECT_EQ(result.moduli[1].kind, Kind::kBending3Point);
+  EXPECT_EQ(result.moduli[0].kind, TestKind::kBending4Point);
+  EXPECT_EQ(result.moduli[1].kind, TestKind::kBending3Point);
   for (int i = 0; i < 2; ++i)  // three elements through the whole beam
     EXPECT_NEAR(*result.moduli[i].shear_free_modulus_MPa, 10003.3, 50) << name(result.moduli[i].kind);
   EXPECT_FALSE(result.moduli[2].shear_free_modulus_MPa.has_value());
@@ -228,7 +228,7 @@ TEST(Measure, BendsOnSupportsWhatIsLongEnough) {
 
 TEST(Measure, BendsOnSupportsOnlyWhatIsInOnePiece) {
   Options options;
-  options.kinds = {Kind::kBending3Point};
+  options.kinds = {TestKind::kBending3Point};
   options.span_to_thickness = 6.25;
   const auto stacks = panel_with({{0, 0, 20}, {2, 0, 20}});
   EXPECT_NE(message_of([&] { measure(stacks, options); }).find("6.25 thicknesses"), std::string::npos);
@@ -256,7 +256,7 @@ TEST(GapSensitivity, TellsWhatHalfAndTwiceTheGapDo) {
   for (auto& x : panel.strands[1].points.x) x[1] += 0.02 * (x[0] - 8);
   for (auto& F : panel.strands[1].points.F) F(1, 0) = 0.02;
   Options options;
-  options.kinds = {Kind::kTension};
+  options.kinds = {TestKind::kTension};
   options.compliance_t_mm_per_MPa = {100};
   const auto sensitivity = gap_sensitivity(panel, options);
   EXPECT_NEAR(sensitivity.halved, -0.5, 0.02);

@@ -58,7 +58,7 @@ TEST(Thickness, LaminatesAreExact) {
   Options options;
   options.compliance_t_mm_per_MPa = {0, 0.05};
   for (const auto& m : measure(panel_of(laminate(plies)), options).moduli) {
-    EXPECT_NEAR(m.modulus_MPa, m.kind == Kind::kTension ? tension : bending, 0.1) << name(m.kind);
+    EXPECT_NEAR(m.modulus_MPa, m.kind == TestKind::kTension ? tension : bending, 0.1) << name(m.kind);
     EXPECT_NEAR(m.reaction_modulus_MPa, m.modulus_MPa, 1e-5 * m.modulus_MPa) << name(m.kind);
   }
 }

@@ -42,7 +42,7 @@ PlateModel laminate(const std::vector<double>& angles, double element_mm) {
       auto& point = points.emplace_back();
       point.a.strand = static_cast<int>(k);
       point.b.strand = static_cast<int>(k) + 1;
-      point.b.side = glue::Side::kBottom;
+      point.b.face = glue::StrandFace::kBottom;
       point.area = element_mm * element_mm;
       for (int a = 0; a < 2; ++a) {
         const int n = place[static_cast<std::size_t>(a)];
@@ -256,7 +256,7 @@ TEST(PlateOfASection, HasTheModuliOfTheSection) {
     const auto across = [&](const glue::FacePoint<2>& side, double place) {
       glue::FacePoint<3> p;
       p.strand = side.strand;
-      p.side = side.side;
+      p.face = side.face;
       p.place = Vec<2>(side.segment + side.xi, place);
       p.position = Vec<3>(side.position[0], place * depth, side.position[1]);
       return p;

@@ -48,7 +48,7 @@ mat::Mat osb() {
 
 Options on_supports() {
   Options options;
-  options.kinds = {Kind::kBending3Point, Kind::kBending4Point};
+  options.kinds = {TestKind::kBending3Point, TestKind::kBending4Point};
   return options;
 }
 

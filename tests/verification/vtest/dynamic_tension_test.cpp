@@ -56,7 +56,7 @@ mpm::Grid<2> grid_for(const Panel<2>& panel) {
 
 mpm::Spring<2>::End end_of(const Panel<2>& panel, const glue::FacePoint<2>& point) {
   const auto& strand = panel.strands[point.strand];
-  const bool top = point.side == glue::Side::kTop;
+  const bool top = point.face == glue::StrandFace::kTop;
   const auto& lattice = strand.lattice;
   const auto particle = lattice.point({point.segment, top ? lattice.counts[1] - 1 : 0});
   return {point.strand, static_cast<int>(particle),
@@ -101,13 +101,13 @@ double dynamic_modulus(const Panel<2>& panel, double compliance_t) {
 TEST(Dynamics, TensionOfAMatAgreesWithStaticsNightly) {
   const auto panel = unyielding_panel(reference_mat("osb_s1"));
   Options statics;
-  statics.kinds = {Kind::kTension};
+  statics.kinds = {TestKind::kTension};
   statics.compliance_t_mm_per_MPa = {1e-4, 0.0105};
   statics.compliance_n_mm_per_MPa = kCompliance_n;
   const auto result = measure(panel, statics);
   for (const double compliance : statics.compliance_t_mm_per_MPa) {
     const double tolerance = compliance < 1e-3 ? 0.02 : 0.01;
-    const double ratio = dynamic_modulus(panel, compliance) / find(result, Kind::kTension, compliance).modulus_MPa;
+    const double ratio = dynamic_modulus(panel, compliance) / find(result, TestKind::kTension, compliance).modulus_MPa;
     report(fmt::format("osb_s1 in tension by explicit dynamics over statics, 1/D_t = {}", compliance), ratio,
            near(1, tolerance));
   }

@@ -12,7 +12,7 @@ namespace strandlab::vtest {
 namespace {
 
 Options options_with(std::vector<double> compliances,
-                     std::vector<Kind> kinds = {Kind::kTension, Kind::kBendingEndRotation}) {
+                     std::vector<TestKind> kinds = {TestKind::kTension, TestKind::kBendingEndRotation}) {
   Options options;
   options.kinds = std::move(kinds);
   options.compliance_t_mm_per_MPa = std::move(compliances);
@@ -44,7 +44,7 @@ TEST_P(UndulatedLaminate, FollowsTheReference) {
   const auto& u = GetParam();
   const auto panel = undulated_laminate(4, 25, u.amplitude_mm, u.wave_mm);
   for (const auto& [elements, tolerance] : {std::pair{6, 0.003}, std::pair{3, 0.03}}) {
-    auto options = options_with(u.compliances, {Kind::kTension});
+    auto options = options_with(u.compliances, {TestKind::kTension});
     options.elements_through_strand = elements;
     const auto result = measure(panel, options);
     EXPECT_NEAR(result.glued_fraction, 1, 1e-6);
@@ -130,7 +130,7 @@ TEST(PerfectBond, DoesNotDependOnItsPenalty) {
 TEST(GlueCompliance, LowersEveryModulus) {
   const std::vector<double> compliances{0, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1, 10};
   const auto result = measure(panel_of(reference_mat("osb_s1")), options_with(compliances, kinds_on_end_planes()));
-  for (const Kind kind : kinds_on_end_planes()) {
+  for (const TestKind kind : kinds_on_end_planes()) {
     EXPECT_NEAR(find(result, kind, 1e-5).modulus_MPa / find(result, kind, 0).modulus_MPa, 1, 1e-3);
     for (std::size_t i = 1; i < compliances.size(); ++i) {
       EXPECT_LT(find(result, kind, compliances[i]).modulus_MPa, find(result, kind, compliances[i - 1]).modulus_MPa);

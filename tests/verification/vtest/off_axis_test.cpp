@@ -37,7 +37,7 @@ Panel<2> laminate(const std::vector<double>& angles_deg, wood::OffAxis off_axis)
 double measured_modulus(const std::vector<double>& angles_deg, wood::OffAxis off_axis) {
   Options options;
   options.compliance_t_mm_per_MPa = {0};
-  return find(measure(laminate(angles_deg, off_axis), options), Kind::kTension, 0).modulus_MPa;
+  return find(measure(laminate(angles_deg, off_axis), options), TestKind::kTension, 0).modulus_MPa;
 }
 
 struct Turn {

@@ -61,13 +61,14 @@ inline Panel<2> undulated_laminate(int rows, double length_mm, double amplitude_
   return panel;
 }
 
-inline const std::vector<Kind>& kinds_on_end_planes() {
-  static const std::vector<Kind> kinds{Kind::kTension, Kind::kBendingEndRotation, Kind::kBendingEndCouple};
+inline const std::vector<TestKind>& kinds_on_end_planes() {
+  static const std::vector<TestKind> kinds{TestKind::kTension, TestKind::kBendingEndRotation,
+                                           TestKind::kBendingEndCouple};
   return kinds;
 }
 
 struct ReferenceModulus {
-  Kind kind;
+  TestKind kind;
   double compliance_t_mm_per_MPa;
   double modulus_MPa;
 };
@@ -77,7 +78,7 @@ inline std::vector<ReferenceModulus> reference_moduli(const std::string& name, c
   nlohmann::json file;
   std::ifstream(std::string(STRANDLAB_TEST_DATA) + "/reference/fe_moduli.json") >> file;
   std::vector<ReferenceModulus> moduli;
-  for (const Kind kind : kinds_on_end_planes()) {
+  for (const TestKind kind : kinds_on_end_planes()) {
     for (const auto& [compliance, modulus] : file.at(name).at(vtest::name(kind) + variant).items()) {
       moduli.push_back({kind, std::stod(compliance), modulus.get<double>()});
     }
@@ -85,7 +86,7 @@ inline std::vector<ReferenceModulus> reference_moduli(const std::string& name, c
   return moduli;
 }
 
-inline Modulus find(const Result& result, Kind kind, double compliance_t) {
+inline Modulus find(const Result& result, TestKind kind, double compliance_t) {
   for (const auto& m : result.moduli) {
     if (m.kind == kind && m.compliance_t_mm_per_MPa == compliance_t) return m;
   }

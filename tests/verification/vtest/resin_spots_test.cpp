@@ -33,7 +33,7 @@ Panel<2> lap_joint() {
 
 Options tension(double compliance, const glue::Coverage& coverage) {
   Options options;
-  options.kinds = {Kind::kTension};
+  options.kinds = {TestKind::kTension};
   options.compliance_t_mm_per_MPa = {compliance};
   options.curing.point_spacing_mm = .05;
   options.curing.coverage = coverage;

@@ -22,9 +22,9 @@ Setup set_up_3_point(const Model& model, const Options& options) {
   const auto whole = loaded_at(span), half = loaded_at(0.5 * span);
   return {{force_load(whole), deflection_load(whole), force_load(half), deflection_load(half)},
           [&model, whole, half](const Solutions& s) {
-            Modulus modulus{Kind::kBending3Point};
+            Modulus modulus{TestKind::kBending3Point};
             apparent(model, whole, *s[0], *s[1], modulus);
-            Modulus shorter{Kind::kBending3Point};
+            Modulus shorter{TestKind::kBending3Point};
             apparent(model, half, *s[2], *s[3], shorter);
             modulus.shear_free_modulus_MPa =
                 modulus_without_shear(whole.span, modulus.modulus_MPa, half.span, shorter.modulus_MPa);
@@ -35,7 +35,7 @@ Setup set_up_3_point(const Model& model, const Options& options) {
 }  // namespace
 
 template <>
-const VirtualTest& test<Kind::kBending3Point>() {
+const VirtualTest& test<TestKind::kBending3Point>() {
   static constexpr VirtualTest kTest{.name = "bending_3_point",
                                      .label = "Bending (3 points)",
                                      .closed_form = ClosedForm::kLaminatedBeam,

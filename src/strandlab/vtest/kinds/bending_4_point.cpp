@@ -13,7 +13,7 @@ Setup set_up_4_point(const Model& model, const Options& options) {
   const double gauge_length = span / 3 - 2 * model.section.thickness;  // a thickness clear of the loads
   const statics::LoadCase gauge{sag(model, gauge_length), nothing(model)};
   return {{force_load(test), deflection_load(test), gauge}, [&model, test, gauge_length](const Solutions& s) {
-            Modulus modulus{Kind::kBending4Point};
+            Modulus modulus{TestKind::kBending4Point};
             apparent(model, test, *s[0], *s[1], modulus);
             const double w = mutual_energy(model.bonded, *s[0], *s[2]);
             modulus.shear_free_modulus_MPa =
@@ -25,7 +25,7 @@ Setup set_up_4_point(const Model& model, const Options& options) {
 }  // namespace
 
 template <>
-const VirtualTest& test<Kind::kBending4Point>() {
+const VirtualTest& test<TestKind::kBending4Point>() {
   static constexpr VirtualTest kTest{.name = "bending_4_point",
                                      .label = "Bending (4 points)",
                                      .closed_form = ClosedForm::kLaminatedBeam,

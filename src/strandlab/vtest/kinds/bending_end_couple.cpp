@@ -1,5 +1,5 @@
-// Bending by an end couple [Le 2010, 4.2]: x = 0 is clamped, axial forces +-P act over the end faces of the outermost
-// rows present at x = L, a lever d apart: E_b = M^2 L/(2 U I), M = P d.
+// Bending by an end couple (Le 2010, Eq. 4.1 to 4.3): x = 0 is clamped, axial forces +-P act over the end faces of the
+// outermost rows present at x = L, a lever d apart: E_b = M^2 L/(2 U I), M = P d.
 #include <algorithm>
 #include <utility>
 
@@ -61,7 +61,7 @@ Modulus end_couple_modulus(const Model& model, const std::vector<double>& couple
   const auto& section = model.section;
   double rotation = 0;  // work of a couple of 1 N mm
   for (std::size_t i = 0; i < couple.size(); ++i) rotation += couple[i] * bent.displacement[i];
-  Modulus modulus{Kind::kBendingEndCouple};
+  Modulus modulus{TestKind::kBendingEndCouple};
   modulus.modulus_MPa = section.length / (2 * model.bonded.energy(bent) * section.second_moment());
   modulus.reaction_modulus_MPa = -left_resultant(section, model.bonded.forces(bent)).moment * section.length /
                                  (rotation * section.second_moment());
@@ -83,7 +83,7 @@ void check_two_strands(const Panel<2>& mat) {
 }  // namespace
 
 template <>
-const VirtualTest& test<Kind::kBendingEndCouple>() {
+const VirtualTest& test<TestKind::kBendingEndCouple>() {
   static constexpr VirtualTest kTest{.name = "bending_end_couple",
                                      .label = "Bending (end couple)",
                                      .closed_form = ClosedForm::kLaminatedBeam,

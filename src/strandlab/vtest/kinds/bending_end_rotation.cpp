@@ -1,4 +1,5 @@
 // Bending by end rotation: the end plane x = L is turned by theta at no axial force, E_b = 2 U L/(I theta^2).
+// Le (2010), Eq. 4.1, for a rotation in place of a couple.
 #include "strandlab/vtest/end_planes.hpp"
 #include "strandlab/vtest/kinds/test.hpp"
 
@@ -15,7 +16,7 @@ Modulus end_rotation_modulus(const Model& model, const statics::Solution<2>& str
   auto bent = rotation;
   bent.add(q, stretch);
   const double factor = section.length / section.second_moment();
-  Modulus modulus{Kind::kBendingEndRotation};
+  Modulus modulus{TestKind::kBendingEndRotation};
   modulus.modulus_MPa = 2 * model.bonded.energy(bent) * factor;
   modulus.reaction_modulus_MPa = right_resultant(section, model.bonded.forces(bent)).moment * factor;
   return modulus;
@@ -29,7 +30,7 @@ Setup set_up_end_rotation(const Model& model, const Options&) {
 }  // namespace
 
 template <>
-const VirtualTest& test<Kind::kBendingEndRotation>() {
+const VirtualTest& test<TestKind::kBendingEndRotation>() {
   static constexpr VirtualTest kTest{.name = "bending_end_rotation",
                                      .label = "Bending (end rotation)",
                                      .closed_form = ClosedForm::kLaminatedBeam,

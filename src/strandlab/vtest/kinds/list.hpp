@@ -11,7 +11,7 @@
 
 namespace strandlab::vtest {
 
-enum class Kind {
+enum class TestKind {
 #define VIRTUAL_TEST(name) k##name,
   STRANDLAB_VIRTUAL_TESTS(VIRTUAL_TEST)
 #undef VIRTUAL_TEST
@@ -20,11 +20,11 @@ enum class Kind {
 struct VirtualTest;
 
 // What a test of this kind is. Each is defined in the file of its test.
-template <Kind kind>
+template <TestKind kind>
 const VirtualTest& test();
 #define VIRTUAL_TEST(name) \
   template <>              \
-  const VirtualTest& test<Kind::k##name>();
+  const VirtualTest& test<TestKind::k##name>();
 STRANDLAB_VIRTUAL_TESTS(VIRTUAL_TEST)
 #undef VIRTUAL_TEST
 

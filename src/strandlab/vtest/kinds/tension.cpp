@@ -1,4 +1,5 @@
-// Tension: end planes kept plane and free to move through the thickness, E = 2 U/(eps^2 L b h).
+// Tension: end planes kept plane and free to move through the thickness, E = 2 U/(eps^2 L b h), with
+// the energy U of wood and glue lines of Le (2010), Eq. 3.4.
 #include "strandlab/vtest/end_planes.hpp"
 #include "strandlab/vtest/kinds/test.hpp"
 
@@ -9,7 +10,7 @@ Setup set_up_tension(const Model& model, const Options&) {
   return {{end_displacement(model, 1, 0)}, [&model](const Solutions& s) {
             const auto& section = model.section;
             const double factor = section.length / section.thickness;  // for a stretch of 1 mm
-            Modulus modulus{Kind::kTension};
+            Modulus modulus{TestKind::kTension};
             modulus.modulus_MPa = 2 * model.bonded.energy(*s[0]) * factor;
             modulus.reaction_modulus_MPa = right_resultant(section, model.bonded.forces(*s[0])).force * factor;
             return modulus;
@@ -30,7 +31,7 @@ std::vector<GlueSlip> slips_in_tension(const Model& model, const Solutions& s) {
 }  // namespace
 
 template <>
-const VirtualTest& test<Kind::kTension>() {
+const VirtualTest& test<TestKind::kTension>() {
   static constexpr VirtualTest kTest{.name = "tension",
                                      .label = "Tension",
                                      .closed_form = ClosedForm::kRuleOfMixtures,

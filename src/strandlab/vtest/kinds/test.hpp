@@ -36,7 +36,7 @@ struct VirtualTest {
   std::vector<GlueSlip> (*slips)(const Model&, const Solutions&) = nullptr;
 };
 
-const VirtualTest& test_of(Kind kind);
-std::vector<Kind> all_kinds();  // in the order of the list
+const VirtualTest& test_of(TestKind kind);
+std::vector<TestKind> all_tests();  // in the order of the list
 
 }  // namespace strandlab::vtest

@@ -1,4 +1,5 @@
-// Hill's law with hardening by a power of the plastic strain: yield without change of volume [Le 2010, 3.1].
+// Hill's law with hardening by a power of the plastic strain: yield without change of volume. Le (2010), Eq. 3.1
+// to 3.3, with the misprints of 3.2 and 3.3 put right as Hill (1950) has them.
 //   f^2 = Hill's quadratic form of the stress (hill.cpp),  yield at f = 1 + (K/Y_R) alpha^n,  d alpha = d lambda / Y_R
 // alpha is the plastic strain of uniaxial radial loading. What a law is made of: laws/list.hpp.
 #pragma once

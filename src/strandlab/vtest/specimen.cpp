@@ -1,4 +1,4 @@
-#include "strandlab/vtest/window.hpp"
+#include "strandlab/vtest/specimen.hpp"
 
 #include <algorithm>
 #include <cmath>
