@@ -205,6 +205,7 @@ class Press {
   // Mechanics with the temperatures at the start of the step, then heat and moisture, then cure.
   void step(double seconds, Aim aim, Faces faces, const std::string& phase) {
     const auto before = thickness_;
+    const double height_before = height();
     limited_ = stopped_ = false;
     if (faces != Faces::kBottomPlaten) {
       aim.move.gas = gas_mean();
@@ -219,6 +220,7 @@ class Press {
     const auto state = solver_.state();
     const double begin = solver_.time(), end = begin + seconds;
     const auto after = thickness_;
+    closing_ = (height_before - height()) / seconds;
     solver_.step(seconds, [&](double t) { return conditions(t, begin, end, before, after, faces); });
     cure(state, seconds);
     record(aim, faces, phase);
@@ -259,8 +261,11 @@ class Press {
              bool opening) {
     while (now() < to - 1e-9 && !(ends_at_stop && stopped_)) {
       double seconds = step_at(opening ? now() - begin_.time : -1);
-      const double closing = (height() - aim(now() + seconds).move.height) / seconds;
-      if (!aim(to).move.by_pressure) seconds = std::min(seconds, mechanics_.longest_step(closing));
+      if (!opening) {
+        const auto& ahead = aim(now() + seconds).move;
+        seconds = std::min(seconds, mechanics_.longest_step(ahead.by_pressure ? closing_under_pressure()
+                                                                              : (height() - ahead.height) / seconds));
+      }
       const bool last = now() + seconds > to - 1e-6 * seconds;
       if (last) seconds = to - now();
       auto next = aim(now() + seconds);
@@ -268,6 +273,8 @@ class Press {
       step(seconds, next, faces, phase);
     }
   }
+  // m/s, expected of the next step: as fast as may be where the last one has not reached its pressure.
+  double closing_under_pressure() const { return limited_ && !stopped_ ? s_.fastest : closing_; }
   static Aim to_height(double height, double final_height) {
     Aim aim;
     aim.move.height = height;
@@ -489,6 +496,7 @@ class Press {
     numbers(begin_.time);
     numbers(begin_.height);
     numbers(begin_.pressure);
+    numbers(closing_);
     numbers(limited_);
     numbers(stopped_);
     numbers.each(out_.record, [&](Instant& at) { visit_instant(numbers, at); });
@@ -535,6 +543,7 @@ class Press {
     double time = 0, height = 0, pressure = 0;
   } begin_;                                 // of the stage
   double start_ = 0;                        // s, of the solver's clock since first contact
+  double closing_ = 0;                      // m/s, in the last step
   bool limited_ = false, stopped_ = false;  // a pressure that was not held: closing too fast, or at its stop
   Cycle out_;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 
 #include "strandlab/core/error.hpp"
@@ -25,7 +26,11 @@ constexpr double kSettling = 2;          // transits of a wave through the mat, 
 constexpr double kDamping = .6;          // of the thickness mode's angular frequency; of critical damping .3
 constexpr int kDampedSteps = 4;          // steps between dampings
 constexpr double kRead = .5;             // part of the settling, its end, from which forces are read
-constexpr double kServoTransits = 1.5, kServoModulus = 300;  // time and MPa of the control of pressure
+// Control of pressure: the time in transits in which it aims to be there, and the modulus that it expects of the mat,
+// MPa: what it last felt while closing within bounds, the upper one while opening.
+constexpr double kServoTransits = 1.5, kSoftest = 20, kServoModulus = 300;
+constexpr double kReached = .02;      // of the pressure wanted: near enough. Judgement
+constexpr double kTouches = .01;      // of the stress last held: what an open press no longer feels
 constexpr double kFiltered = .3;      // transits over which the pressure that it sees is averaged
 constexpr double kServoSpeed = .25;   // of the platens' speed, at most, under control of pressure
 constexpr double kDuePressure = .2;   // of the stress held: its change for which the mat is settled anew
@@ -186,16 +191,24 @@ bool StrandMechanics::due(const Move& move, const std::vector<transfer::CellStat
   if (move.by_pressure) {
     const bool closing = !at_stop_ && move.stop > 0;
     if (closing || std::abs(std::max(0., move.stress) - wanted_) > kDuePressure * held_) return true;
-  } else if (kMm * gap() - move.height > 1e-9 * move.height) {
+  } else if (kMm * gap() - move.height > 1e-9 * move.height || follows(move)) {
     return true;
   }
   const auto now = factors_of(how_.softening, state);
   return std::max(change(last_.stiffness, now.stiffness), change(last_.yield, now.yield)) > how_.due;
 }
 
+// Whether the platens, moved by position, go away from the mat; and whether it still follows them.
+bool StrandMechanics::opens(const Move& move) const {
+  return !move.by_pressure && move.height > kMm * gap() * (1 + 1e-9);
+}
+bool StrandMechanics::follows(const Move& move) const {
+  return opens(move) && stress_ > kTouches * held_;
+}
+
 Moved StrandMechanics::move(const Move& move, const std::vector<transfer::CellState>& state, double seconds) {
   waiting_ += seconds;
-  if (!due(move, state)) return {true, limited_, at_stop_};
+  if (!due(move, state)) return {!opens(move) || follows(move), limited_, at_stop_};
   last_ = factors_of(how_.softening, state);
   from_ = {};
   for (const auto& strand : panel_.strands) {
@@ -205,16 +218,49 @@ Moved StrandMechanics::move(const Move& move, const std::vector<transfer::CellSt
   to_ = factors_of_points(state);
   stage_ = 0;
   sum_s_ = sum_top_ = sum_bottom_ = 0;
-  const bool opens = !move.by_pressure && move.height > kMm * gap() * (1 + 1e-9);
-  if (!move.by_pressure && kMm * gap() - move.height > 1e-9 * move.height) {
-    close(move, waiting_);
+  const double held = held_, gap_before = gap(), stress_before = stress_;
+  if (move.by_pressure) {
+    press(move, waiting_);
+  } else if (kMm * gap() - move.height > 1e-9 * move.height) {
+    close(move.height / kMm, move.final_height / kMm, waiting_);
+    by_pressure_ = limited_ = at_stop_ = false;
   } else {
     settle(move, waiting_);
   }
   waiting_ = 0;
   read();
   record();
-  return {stress_ > 0 || !opens, limited_, at_stop_};
+  if (move.by_pressure) judge(move, gap_before, stress_before);
+  if (opens(move)) held_ = held;  // what it was before the press began to open
+  return {!opens(move) || follows(move), limited_, at_stop_};
+}
+
+// Under a pressure: where the last exchange has not reached it the platens close first as if by position, at most as
+// far as they may; then the servo holds it.
+void StrandMechanics::press(const Move& move, double seconds) {
+  const double from = gap();
+  least_ = std::max({move.stop, kMm * from - move.fastest * seconds, (1 - kLongestClosing) * kMm * from}) / kMm;
+  const double wanted = std::max(0., move.stress) / kMPa;
+  double rest = seconds;
+  if (limited_ && from > least_ && stress_ < kMPa * wanted) {
+    close(least_, move.stop / kMm, seconds, wanted);
+    rest *= (gap() - least_) / (from - least_);
+    if (gap() <= least_ * (1 + 1e-9)) {
+      wanted_ = kMPa * wanted;
+      by_pressure_ = true;
+      return;
+    }
+    sum_s_ = sum_top_ = sum_bottom_ = 0;
+  }
+  settle(move, rest);
+}
+
+// What came of it: the mat's modulus while it gave way, and whether the pressure was reached.
+void StrandMechanics::judge(const Move& move, double gap_before, double stress_before) {
+  const double strain = 1 - gap() / gap_before, more = (stress_ - stress_before) / kMPa;
+  if (strain > .1 * kLongestClosing && more > 0) modulus_ = std::clamp(more / strain, kSoftest, kServoModulus);
+  at_stop_ = move.stop > 0 && gap() * kMm <= move.stop * (1 + 1e-9);
+  limited_ = at_stop_ || stress_ < (1 - kReached) * wanted_;
 }
 
 void StrandMechanics::step(double closing_mm_s, double seconds_per_second) {
@@ -242,25 +288,34 @@ void StrandMechanics::feel(double seconds) {
   sum_bottom_ += engine_->bottom_force() * seconds;
 }
 
-// The platens go on at their speed from one exchange to the next, and come to rest at the final height.
-void StrandMechanics::close(const Move& move, double seconds) {
-  const double from = gap(), to = move.height / kMm, final_gap = move.final_height / kMm;
+// The platens go on at their speed from one exchange to the next, and come to rest at the final gap; or before, where
+// they feel a pressure (MPa).
+void StrandMechanics::close(double to, double final_gap, double seconds, double pressure) {
+  const double from = gap();
   const double full = how_.speed_m_s / kMm, way = panel_.initial_thickness_mm - final_gap;
   const double gain = full * full / (2 * kSpeedUp * way), loss = full * full / (2 * kSlowDown * way);
-  limited_ = at_stop_ = false;
-  while (gap() > to) {
+  const double wave = transit(), area = panel_.length_mm * panel_.depth_mm;
+  const bool watches = pressure < std::numeric_limits<double>::infinity();
+  while (gap() > to && !(watches && filtered_ >= pressure)) {
     const double dt = engine_->state().time_step_s;
     velocity_ = std::min(full, velocity_ + gain * dt);
+    if (watches) velocity_ = std::min(velocity_, gap() * (pressure - filtered_) / (modulus_ * kServoTransits * wave));
     velocity_ = std::min(velocity_, std::sqrt(2 * loss * std::max(0., gap() - final_gap)));
     velocity_ = std::max(velocity_, kSlowest * full);
     if (to <= final_gap) velocity_ = std::min(velocity_, (gap() - to) / dt * (1 + 1e-12));
     step(velocity_, seconds * velocity_ / (from - to));
     feel(dt);
+    if (watches) listen(dt, area, wave);
     soften_by((from - gap()) / (from - to));
   }
-  soften_by(1);
+  if (gap() <= to) soften_by(1);
   if (to <= final_gap) velocity_ = 0;
-  by_pressure_ = false;
+}
+
+// To what the platens feel now, and its mean over a part of a transit.
+void StrandMechanics::listen(double dt, double area, double wave) {
+  now_ = .5 * (engine_->top_force() + engine_->bottom_force()) / area;
+  filtered_ += (now_ - filtered_) * std::min(1., dt / (kFiltered * wave));
 }
 
 // At rest, or under a pressure, until the mat is: damped.
@@ -268,7 +323,6 @@ void StrandMechanics::settle(const Move& move, double seconds) {
   const double wave = transit(), time = kSettling * wave, begin = engine_->state().time_s;
   const double damping = kDamping * std::numbers::pi / wave;
   const double full = how_.speed_m_s / kMm;
-  const double least = std::max(move.stop, kMm * gap() - move.fastest * seconds) / kMm;  // mm
   const double wanted = std::max(0., move.stress) / kMPa;
   const double area = panel_.length_mm * panel_.depth_mm;
   for (int n = 1;; ++n) {
@@ -278,15 +332,16 @@ void StrandMechanics::settle(const Move& move, double seconds) {
     if (move.by_pressure) {
       // The mean lags behind the mat: where the platens feel no more than wanted now, they do not open further.
       const double felt = std::min(filtered_, std::max(wanted, now_));
-      closing = -gap() * ((filtered_ > wanted ? felt : filtered_) - wanted) / (kServoModulus * kServoTransits * wave);
+      const double modulus = filtered_ < wanted ? modulus_ : kServoModulus;
+      closing = -gap() * ((filtered_ > wanted ? felt : filtered_) - wanted) / (modulus * kServoTransits * wave);
       closing = std::clamp(closing, -kServoSpeed * full, kServoSpeed * full);
-      closing = std::min(closing, std::max(0., gap() - least) / dt);
-    } else if (move.height / kMm > gap()) {
-      closing = -std::min(kServoSpeed * full, (move.height / kMm - gap()) / dt);
+      closing = std::min(closing, std::max(0., gap() - least_) / dt);
+    } else if (move.height / kMm > gap()) {  // as far as the mat follows
+      const double way = gap() * std::max(0., std::min(filtered_, now_)) / (kServoModulus * kServoTransits * wave);
+      closing = -std::min({kServoSpeed * full, (move.height / kMm - gap()) / dt, way});
     }
     step(closing, seconds / time);
-    now_ = .5 * (engine_->top_force() + engine_->bottom_force()) / area;
-    filtered_ += (now_ - filtered_) * std::min(1., dt / (kFiltered * wave));
+    listen(dt, area, wave);
     if (n % kDampedSteps == 0) engine_->scale_velocities(std::exp(-damping * kDampedSteps * dt));
     if (passed > (1 - kRead) * time) feel(dt);
     soften_by(passed / time);
@@ -294,8 +349,7 @@ void StrandMechanics::settle(const Move& move, double seconds) {
   velocity_ = 0;
   wanted_ = kMPa * wanted;
   by_pressure_ = move.by_pressure;
-  limited_ = move.by_pressure && gap() <= least * (1 + 1e-9);
-  at_stop_ = limited_ && least * kMm <= move.stop * (1 + 1e-12);
+  if (!by_pressure_) limited_ = at_stop_ = false;
 }
 
 void StrandMechanics::record() {
@@ -438,7 +492,8 @@ void StrandMechanics::visit(Numbers& numbers) {
   numbers(last_.yield);
   numbers(strength_);
   numbers(met_);
-  for (auto* number : {&stress_, &waiting_, &velocity_, &wanted_, &held_, &filtered_, &now_}) numbers(*number);
+  for (auto* number : {&stress_, &waiting_, &velocity_, &wanted_, &held_, &filtered_, &now_, &modulus_})
+    numbers(*number);
   numbers(by_pressure_);
   numbers(limited_);
   numbers(at_stop_);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -83,8 +84,14 @@ class StrandMechanics final : public MatMechanics {
   void feel(double seconds);  // adds to the impulses
   void read();                // panel and layers from the engine
   void step(double closing_mm_s, double seconds_per_second);
-  void close(const Move& move, double seconds);
+  void close(double to_mm, double final_gap_mm, double seconds,
+             double pressure_MPa = std::numeric_limits<double>::infinity());
+  void press(const Move& move, double seconds);
   void settle(const Move& move, double seconds);
+  void listen(double dt, double area, double wave);
+  void judge(const Move& move, double gap_before_mm, double stress_before);
+  bool opens(const Move& move) const;
+  bool follows(const Move& move) const;
   void record();
   bool due(const Move& move, const std::vector<transfer::CellState>& state) const;
 
@@ -108,6 +115,8 @@ class StrandMechanics final : public MatMechanics {
   bool by_pressure_ = false;
   bool limited_ = false, at_stop_ = false;
   double now_ = 0, filtered_ = 0;  // MPa, of the last step under control and its mean over a part of a transit
+  double modulus_ = 300;           // MPa, of the mat while it last gave way under control
+  double least_ = 0;               // mm, gap to which this exchange may close
 
   double sum_s_ = 0, sum_top_ = 0, sum_bottom_ = 0;  // impulses of the part of an exchange that is read
   std::vector<press::Record> records_;

@@ -19,6 +19,9 @@ constexpr double kGamma = 1 - 1 / std::numbers::sqrt2;
 const std::array<double, 3> kUnknownScale{1, .01, 1e4};  // K, kg/kg, Pa
 constexpr double kConverged = 1e-9;  // of a cell's residual over its scale; round-off of air in thin cells is near
 constexpr double kLargestT = 25, kLargestM = .05;  // of one update, K and kg/kg
+// Newton's method may also find a root of the equations that no wood can be at: moisture or air less than nothing.
+constexpr double kLeastAir = -1, kLeastMoisture = -1e-6, kMostMoisture = 1;  // Pa, kg/kg
+constexpr double kColdest = -50, kHottest = 400;                             // C
 constexpr int kMostIterations = 30, kMostHalvings = 14;
 constexpr double kBalanceLimit = 1e-6;
 
@@ -64,6 +67,10 @@ void add_update(std::vector<CellState>& state, const Eigen::VectorXd& update) {
     state[i].M += std::clamp(kUnknownScale[1] * scaled[1], -kLargestM, kLargestM);
     state[i].p_a += kUnknownScale[2] * scaled[2];
   }
+}
+
+bool can_be(const CellState& s) {
+  return s.T > kColdest && s.T < kHottest && s.M > kLeastMoisture && s.M < kMostMoisture && s.p_a > kLeastAir;
 }
 
 void check_sizes(const Grid& grid, std::size_t states, const Conditions& conditions) {
@@ -185,6 +192,7 @@ bool Solver::solve_stage(Stage& stage) const {
     if (update.size() == 0) return false;
     add_update(stage.state, update);
     if (worst > kConverged) continue;
+    if (!std::all_of(stage.state.begin(), stage.state.end(), can_be)) return false;
     stage.at = values_at(constants_, grid_, stage.state, stage.conditions);
     return true;
   }

@@ -294,7 +294,8 @@ struct Whole {
   std::vector<Stop> stops;
 };
 
-Whole whole(int threads, double step, const Stop* from = nullptr, const std::vector<std::string>& schedule = kShort) {
+Whole whole(int threads, double step, const Stop* from = nullptr, const std::vector<std::string>& schedule = kShort,
+            const std::optional<Log>& log = {}) {
   auto wood = wood::library().front();
   wood.law = wood::Law::kCrushing;
   const auto panel = stack(wood);
@@ -312,8 +313,9 @@ Whole whole(int threads, double step, const Stop* from = nullptr, const std::vec
     strands.meet(cells);
     if (exchanges % 9 == 4) all.stops.push_back({strands.checkpoint(), state()});
   };
-  all.cycle = press_hot(test::settings_of(Mechanics::kStrands, 6, step, schedule), mat_of(wood), strands, watch,
-                        from ? from->state : std::vector<double>());
+  auto settings = test::settings_of(Mechanics::kStrands, 6, step, schedule);
+  settings.log = log;
+  all.cycle = press_hot(settings, mat_of(wood), strands, watch, from ? from->state : std::vector<double>());
   all.panel = strands.panel(cells);
   all.records = strands.records();
   return all;
@@ -371,6 +373,10 @@ TEST(HotCycle, BalancesItsEnergyAndSpringsBackALittle) {
   EXPECT_LT(springback, .02);
 }
 
+Instant marked(const Cycle& cycle, const std::string& mark) {
+  return *std::find_if(cycle.record.begin(), cycle.record.end(), [&](const auto& i) { return i.mark == mark; });
+}
+
 // The scheme is of first order in the exchange's time. So slow a closing that the step, not the hundredth of the gap
 // that an exchange closes at most, says how many exchanges there are.
 TEST(HotCycle, HalfTheStepChangesLittle) {
@@ -379,10 +385,7 @@ TEST(HotCycle, HalfTheStepChangesLittle) {
   EXPECT_GT(half_step.records.size(), 3 * whole_step.records.size() / 2);
   double T = 0, density = 0;
   for (const char* mark : {"closed", "opened"}) {
-    const auto marked = [mark](const Cycle& cycle) {
-      return *std::find_if(cycle.record.begin(), cycle.record.end(), [mark](const auto& i) { return i.mark == mark; });
-    };
-    const auto a = marked(whole_step.cycle), b = marked(half_step.cycle);
+    const auto a = marked(whole_step.cycle, mark), b = marked(half_step.cycle, mark);
     for (std::size_t c = 0; c < a.cells.size(); ++c) {
       T = std::max(T, std::abs(a.cells[c].T - b.cells[c].T));
       density = std::max(density, std::abs(a.cells[c].density / b.cells[c].density - 1));
@@ -390,6 +393,44 @@ TEST(HotCycle, HalfTheStepChangesLittle) {
   }
   report("temperature of any layer when closed and opened, half the step", T, below(.09), "K");
   report("density of any layer, half the step", density, below(.005));
+}
+
+// The press is told 4 MPa: it closes at its fastest until it feels them; then the mat creeps, and wood and gas together
+// bear what was told. The instants before the first that has reached it are left out.
+TEST(HotCycle, ClosesUnderPressureAndHoldsIt) {
+  const auto all = whole(1, .25, nullptr, {"close at 4 MPa to 75 % within 1.5 s", "hold 1 s at 4 MPa", "open 2 s"});
+  double worst = 0, fastest = 0, before = 1e-3 * kRows * kRow;
+  bool reached = false;
+  double last = 0;
+  for (const auto& i : all.cycle.record) {
+    if (i.phase == "open") break;
+    fastest = std::max(fastest, (before - i.thickness) / (i.time - last));
+    before = i.thickness;
+    last = i.time;
+    reached = reached || i.stress + i.gas_mean > .98 * 4e6;
+    if (reached) worst = std::max(worst, std::abs((i.stress + i.gas_mean) / 4e6 - 1));
+  }
+  EXPECT_TRUE(reached);
+  report("stress and gas over the pressure told, worst instant", worst, below(.05));
+  report("closing speed over the fastest allowed", fastest / 5e-3,
+         between(.5, 1.005));  // the engine ends a step a little late
+  const double springback = all.cycle.record.back().thickness / before - 1;
+  report("springback from under pressure", springback, between(0, .01));
+}
+
+// A log of positions that closes, holds and opens: until it opens the mat feels what it feels when a schedule moves the
+// press so; then it follows the platens as far as it springs back, as thick as when the pressure is let off slowly.
+TEST(HotCycle, FollowsALogUntilThePressIsOpen) {
+  const double mat = 1e-3 * kRows * kRow;
+  Log log;
+  log.position = {{0, mat}, {4, .4 * mat}, {8, .4 * mat}, {10, 1.2 * mat}, {12, 1.2 * mat}};
+  const auto cycle = whole(1, .25, nullptr, kShort, log).cycle;
+  const auto held = marked(cycle, "held"), same = marked(undisturbed().cycle, "held"), opened = cycle.record.back();
+  report("pressure at the end of the hold, log over schedule", held.pressure / same.pressure, between(.95, 1.05));
+  report("thickness of the open panel, log over schedule",
+         opened.thickness / undisturbed().cycle.record.back().thickness, between(.999, 1.001));
+  EXPECT_NEAR(opened.gap, 1.2 * mat, 1e-9);
+  EXPECT_EQ(opened.pressure, 0);
 }
 
 }  // namespace
