@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "strandlab/core/text.hpp"
 #include "strandlab/run/figures.hpp"
 #include "strandlab/run/film.hpp"
+#include "strandlab/run/measured.hpp"
 #include "strandlab/run/page.hpp"
 #include "terminal.hpp"
 
@@ -17,13 +19,19 @@ namespace strandlab::app {
 void add_report(CLI::App& app) {
   struct ReportArguments {
     std::string folder, out;
+    std::vector<std::filesystem::path> measured;
   };
   auto arguments = std::make_shared<ReportArguments>();
   auto* command = app.add_subcommand("report", "make report.html of a run folder again");
   command->add_option("DIR", arguments->folder, "run folder")->required();
   command->add_option("-o,--output", arguments->out, "file to write (default: report.html in the run folder)");
-  command->callback(
-      [arguments] { print("report: {}\n", printable(run::remake_page(arguments->folder, arguments->out).string())); });
+  command->add_option("--measured", arguments->measured,
+                      "densitometer tables of boards like this one: their mean is drawn over the panel's density "
+                      "profiles; kept in the run folder as measured.csv");
+  command->callback([arguments] {
+    if (!arguments->measured.empty()) run::keep_measured(arguments->folder, arguments->measured);
+    print("report: {}\n", printable(run::remake_page(arguments->folder, arguments->out).string()));
+  });
 }
 
 void add_figures(CLI::App& app) {

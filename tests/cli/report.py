@@ -92,6 +92,27 @@ def figures():
     expect_bad_input(["figures", "nowhere"], ["nowhere"])
 
 
+def measured_boards():
+    """Densitometer tables beside the panel's own profile: their mean is kept in the folder and shown by its page from then on."""
+    shutil.copytree("moved", "beside")
+    rows = [f"{k / 4},{500 + 40 * abs(k - 8)},{540 + 40 * abs(k - 8)}" for k in range(17)]
+    pathlib.Path("boards.csv").write_text("depth mm,density 1 kg/m3,density 2 kg/m3\n" + "\n".join(rows) + "\n", encoding="utf-8")
+    result = strandlab("report", "beside", "--measured", "boards.csv")
+    check(result.returncode == DONE, f"report --measured: {result.stderr}")
+    kept = pathlib.Path("beside/measured.csv").read_text(encoding="utf-8")
+    mean = [row.split(",") for row in kept.splitlines() if row.startswith("mean of 2,")]
+    middle = min(mean, key=lambda row: abs(float(row[2]) - 0.5))
+    # 500 and 540 kg/m3 in the middle, 160 more per mm from there; the bin's middle is .02 mm away.
+    check(abs(float(middle[3]) - 523.2) < 0.1, f"the mean of both boards: {middle}")
+    check(float(mean[0][2]) == 0 and float(mean[-1][2]) == 1, "the mean goes from face to face")
+    check(strandlab("report", "beside").returncode == DONE, "report again")
+    check(data_of("beside/report.html")["run"]["tables"]["measured.csv"] == kept, "the page holds the measured boards")
+    expect_bad_input(["report", "beside", "--measured", "none.csv"], ["none.csv"])
+    check(pathlib.Path("beside/measured.csv").read_text(encoding="utf-8") == kept, "a table that cannot be read changes nothing")
+    expect_bad_input(["report", "nowhere", "--measured", "boards.csv"], ["nowhere"])
+    check(not pathlib.Path("nowhere").exists(), "no folder is made")
+
+
 def refusals():
     expect_bad_input(["report", "nowhere"], ["nowhere", "run.json"])
     expect_bad_input(["report", "moved", "-o", "no/folder/report.html"], ["no/folder"])
@@ -202,6 +223,7 @@ if __name__ == "__main__":
         steps_that_are_not_done()
         hostile_names()
         figures()
+        measured_boards()
         refusals()
         run_without_a_page()
         several_at_once()

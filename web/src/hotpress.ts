@@ -29,7 +29,7 @@ export function hotPressTiles(record: HotPressRecord): HTMLElement {
     el('div', {class: 'tile'}, el('dt', {}, name), el('dd', {}, el('b', {}, value), ' ', el('span', {}, unit)))));
 }
 
-export function hotPressCharts(series: Table, profiles: Table | undefined): Chart[] {
+export function hotPressCharts(series: Table, profiles: Table | undefined, measured: Series[]): Chart[] {
   const time = series.numbers('time_s');
   const line = (name: string, column: string, factor = 1): Series => ({name, x: time, y: series.numbers(column).map(v => factor * v)});
   const at = (quantity: string, unit: string, factor = 1) => places.map(([key, label]) => line(label, `${quantity}_${key}${unit}`, factor));
@@ -76,7 +76,7 @@ export function hotPressCharts(series: Table, profiles: Table | undefined): Char
     charts.push(new Chart({
       id: 'hot-density', title: 'Density as the press left it', note: 'By layers of equal mass; oven-dry mass over volume.',
       xLabel: 'depth below the top face, mm', yLabel: 'density, kg/m³',
-      series: kept.map(({name, rows}): Series => ({name, x: rows.numbers('depth_mm'), y: rows.numbers('density_kg_m3')})),
+      series: kept.map(({name, rows}): Series => ({name, x: rows.numbers('depth_mm'), y: rows.numbers('density_kg_m3')})).concat(measured),
       table: profiles, summary: 'Density against depth when the press had closed, at the end of the hold and when it had opened.',
     }));
   }

@@ -166,6 +166,15 @@ function modulusCharts(run: Run): Chart[] {
   });
 }
 
+// The last specimen of measured.csv, the mean where there are several, as `strandlab report --measured` keeps them.
+function measuredBoard(run: Run, axes: (place: number[], density: number[]) => {x: number[]; y: number[]}, column: string): Series[] {
+  const specimens = table(run, 'measured.csv');
+  const name = specimens?.distinct('specimen').pop();
+  if (!specimens || name === undefined) return [];
+  const board = specimens.where('specimen', name);
+  return [{name: `measured, ${name}`, ...axes(board.numbers(column), board.numbers('density_kg_m3')), style: 'dashed', ink: true}];
+}
+
 // Density through the thickness, heights over those of the panel so that states can be compared.
 function profileChart(run: Run): Chart[] {
   const profile = table(run, 'profile.csv');
@@ -178,7 +187,7 @@ function profileChart(run: Run): Chart[] {
       const state = profile.where('compaction', value);
       return {name: stateName(run, Number(value)), x: state.numbers('density_kg_m3'), y: state.numbers('relative_height'),
               family: [i, compactions.length]};
-    }),
+    }).concat(measuredBoard(run, (height, density) => ({x: density, y: height}), 'relative_height')),
     table: profile, y: {min: 0, max: 1}, item: true,
     summary: 'Density against height in the panel, one line per compaction.',
   })];
@@ -307,7 +316,7 @@ function hotPress(run: Run, grid: (charts: Chart[]) => HTMLElement | null): HTML
   const series = table(run, 'hotpress.csv');
   if (!series || !run.record.hotpress) return null;
   const profiles = table(run, 'transfer_profiles.csv');
-  const charts = grid(hotPressCharts(series, profiles));
+  const charts = grid(hotPressCharts(series, profiles, measuredBoard(run, (position, density) => ({x: position, y: density}), 'position_mm')));
   if (charts && profiles && profiles.rows.length > 0) charts.append(new DepthMap(profiles).element);
   return section('The hot press', hotPressTiles(run.record.hotpress), charts);
 }

@@ -29,7 +29,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr std::array kTables{"press.csv",      "moduli.csv",  "theory.csv",   "morphology.csv",
-                             "histograms.csv", "profile.csv", "hotpress.csv", "transfer_profiles.csv"};
+                             "histograms.csv", "profile.csv", "hotpress.csv", "transfer_profiles.csv",
+                             "measured.csv"};
 
 std::string needed_text(const fs::path& file) {
   auto text = files::read_text(file);

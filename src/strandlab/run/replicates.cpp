@@ -14,6 +14,7 @@
 #include "strandlab/files/atomic_file.hpp"
 #include "strandlab/io/checkpoint.hpp"
 #include "strandlab/run/folder.hpp"
+#include "strandlab/run/measured.hpp"
 #include "strandlab/run/profile_bins.hpp"
 
 namespace strandlab::run {
@@ -125,17 +126,6 @@ std::vector<profile::Mean> means_of(const std::vector<report::Replicate>& replic
 
 // ---- Measured profiles ---------------------------------------------------------------------------------------------
 
-std::vector<profile::Specimen> read_specimens(const ProfileQuestion& a) {
-  std::vector<profile::Specimen> all;
-  for (const auto& file : a.measured) {
-    for (auto& specimen : profile::read_measured(file, a.columns)) {
-      if (a.measured.size() > 1) specimen.name = fs::path(file).stem().string() + " " + specimen.name;
-      all.push_back(std::move(specimen));
-    }
-  }
-  return all;
-}
-
 // The compaction to draw: the one asked for, else the one whose mean density is nearest to the measured one.
 const profile::Mean& state_to_compare(const std::vector<profile::Mean>& means, const profile::Mean& measured,
                                       double compaction) {
@@ -153,7 +143,7 @@ const profile::Mean& state_to_compare(const std::vector<profile::Mean>& means, c
 
 std::optional<Comparison> compare(const ProfileQuestion& a, const std::vector<profile::Mean>& means) {
   if (a.measured.empty()) return std::nullopt;
-  Comparison comparison{read_specimens(a), {}, {}};
+  Comparison comparison{read_specimens({a.measured.begin(), a.measured.end()}, a.columns), {}, {}};
   std::vector<profile::Profile> profiles;
   for (const auto& specimen : comparison.specimens)
     profiles.push_back(profile::binned(specimen, static_cast<int>(means.front().density_kg_m3.size())));
