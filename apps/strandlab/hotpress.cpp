@@ -22,7 +22,8 @@ void press(const CaseArguments& arguments) {
   const run::Place place{arguments.folder.empty() ? std::filesystem::path("runs") / (c.name + "_hotpress")
                                                   : std::filesystem::path(arguments.folder),
                          arguments.force};
-  const auto pressed = run::hotpress(c, place);
+  run::Observer silent;
+  const auto pressed = run::hotpress(c, place, silent);
   for (const auto& line : report::summary(pressed.band)) print("{}\n", printable(line));
   for (const auto& note : pressed.notes) tell(STDERR_FILENO, fmt::format("warning: {}\n", printable(note)));
   print("{}: hotpress.csv, transfer_profiles.csv, run.json\n", printable(place.folder.string()));

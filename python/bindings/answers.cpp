@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bindings.hpp"
+#include "observer.hpp"
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/bondline/example.hpp"
 #include "strandlab/case/case.hpp"
@@ -38,8 +39,9 @@ py::dict theory_of(const cases::Case& c) {
       [&] { return report::estimate_table(theory::estimate(run::theory_question(c, std::move(question), {}, {}))); }));
 }
 
-py::dict hot_press(const cases::Case& c) {
-  const auto pressed = without_lock([&] { return run::hotpress(c); });
+py::dict hot_press(const cases::Case& c, py::object on_progress) {
+  PythonObserver observer(std::move(on_progress));
+  const auto pressed = without_lock([&] { return run::hotpress(c, observer); });
   py::dict answer;
   answer["record"] = columns_of(report::hotpress_table(pressed.band.cycle));
   answer["profiles"] = columns_of(report::profiles_table(pressed.band.cycle));
@@ -69,7 +71,7 @@ py::dict bond_lines(const std::filesystem::path& file, const std::vector<std::st
 void bind_answers(py::module_& module) {
   module.def("cure", &cure, py::arg("case"), py::arg("panel"));
   module.def("theory", &theory_of, py::arg("case"));
-  module.def("hotpress", &hot_press, py::arg("case"));
+  module.def("hotpress", &hot_press, py::arg("case"), py::arg("on_progress"));
   module.def("bondline_example", &bondline::example_table, py::arg("seed"));
   module.def("bondline", &bond_lines, py::arg("file"), py::arg("group_by"), py::arg("within"));
 }

@@ -202,12 +202,19 @@ def _formed_of(panel: Panel) -> core.Formed:
     return panel._formed
 
 
-def test(pressed: Panel | Pressed | Sequence[Panel], case: Case | None = None) -> Tested:
-    """Tests panels as their case says, or with the [glue] and [test] keys of another case."""
+def test(pressed: Panel | Pressed | Sequence[Panel], case: Case | None = None, on_progress: OnProgress | None = None) -> Tested:
+    """Tests panels as their case says, or with the [glue] and [test] keys of another case. on_progress(step, fraction, detail) is called
+    before each panel and at the end; what it raises ends the tests. Ctrl-C raises KeyboardInterrupt within a second."""
     panels = _panels(pressed)
     if not panels:
         raise core.InputError("there is no panel to test")
-    states = [core.test((case or panel.case)._core, panel._core, panel.compaction) for panel in panels]
+    states = []
+    for number, panel in enumerate(panels):
+        if on_progress:
+            on_progress("test", number / len(panels), f"compaction {panel.compaction:.4g}")
+        states.append(core.test((case or panel.case)._core, panel._core, panel.compaction))
+    if on_progress:
+        on_progress("test", 1.0, f"{len(panels)} panels")
     return Tested(states, core.moduli(_formed_of(panels[0]), states), panels)
 
 
@@ -237,7 +244,7 @@ def run(case: Case, folder: str | os.PathLike[str] | None = None, on_progress: O
         core.run_in_folder(case._core, os.fspath(folder), force, on_progress)
         return open_run(folder)
     pressed = press(case, on_progress)
-    return Run(pressed, test(pressed))
+    return Run(pressed, test(pressed, on_progress=on_progress))
 
 
 def open_run(folder: str | os.PathLike[str]) -> FolderRun:
@@ -269,9 +276,10 @@ class HotPress:
         return "\n".join(self.summary)
 
 
-def hotpress(case: Case) -> HotPress:
-    """How long to press: the [hotpress] cycle of a case through its mat's thickness, in a second."""
-    return HotPress(core.hotpress(case._core))
+def hotpress(case: Case, on_progress: OnProgress | None = None) -> HotPress:
+    """How long to press: the [hotpress] cycle of a case through its mat's thickness, in a second. on_progress(step, fraction, detail) is
+    called after each step of the cycle; what it raises, or Ctrl-C, ends it."""
+    return HotPress(core.hotpress(case._core, on_progress))
 
 
 def theory(case: Case) -> Table:

@@ -30,6 +30,21 @@ with tempfile.TemporaryDirectory(prefix="strandlab_deb_") as name:
                     "COMP_WORDS=(strandlab run --set press.s); COMP_CWORD=3; _strandlab; echo ${COMPREPLY[@]}")
     if completed.split() != ["press.speed_m_s=", "press.sides=", "press.symmetric="]:
         sys.exit(f"FAILED: bash completes --set press.s to {completed}")
+    keys = {"press.speed_m_s", "press.sides", "press.symmetric"}
+    if shutil.which("zsh"):  # its own functions stand in for the editor's, which match what was typed
+        zsh = (f"compadd() {{ print -l -- $@ }}; complete_it() {{ source {prefix}/share/zsh/vendor-completions/_strandlab }}; "
+               "words=(strandlab run --set press.s) CURRENT=4; complete_it")
+        if not keys <= set(run("zsh", "-fc", zsh).split()):
+            sys.exit("FAILED: zsh offers no keys after --set")
+    else:
+        print("zsh is not there: its completion is not tried")
+    if shutil.which("fish"):
+        fish = f"source {prefix}/share/fish/vendor_completions.d/strandlab.fish; complete -C 'strandlab run --set press.s'"
+        found = {line.split("=")[0] for line in run("fish", "--no-config", "-c", fish).splitlines()}
+        if found != keys:
+            sys.exit(f"FAILED: fish completes --set press.s to {found}")
+    else:
+        print("fish is not there: its completion is not tried")
     empty = folder / "empty"
     empty.mkdir()
     user = []

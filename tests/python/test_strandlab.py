@@ -6,6 +6,7 @@ Nothing here checks physics anew: the same library gave the program's results, w
 import ast
 import copy
 import gc
+import json
 import os
 import pathlib
 import pickle
@@ -295,6 +296,29 @@ class Runs(unittest.TestCase):
         case = small().changed({"press.speed_m_s": 0.05, "run.threads": 2})  # minutes long
         self.assertLess(interrupted_after(lambda: strandlab.press(case), 0.5), 1)
 
+    def test_ctrl_c_ends_a_hot_press_cycle_within_a_second(self):
+        case = strandlab.Case.ready("hot_osb").changed({"hotpress.cells": 400, "hotpress.step_s": 0.01})  # a minute long
+        self.assertLess(interrupted_after(lambda: strandlab.hotpress(case), 0.5), 1)
+
+    def test_hot_press_and_tests_tell_how_far_they_are(self):
+        told = []
+        strandlab.hotpress(strandlab.Case.ready("hot_osb"), on_progress=lambda *progress: told.append(progress))
+        fractions = [fraction for _, fraction, _ in told]
+        self.assertEqual({step for step, _, _ in told}, {"hotpress"})
+        self.assertEqual(fractions, sorted(fractions))
+        self.assertGreater(fractions[-1], 0.99)
+        told.clear()
+        panels = self.result.panels
+        strandlab.test(panels, on_progress=lambda *progress: told.append(progress))
+        self.assertEqual([(step, fraction) for step, fraction, _ in told], [("test", k / len(panels)) for k in range(len(panels) + 1)])
+
+        def stop(*progress):
+            raise KeyError("enough")
+        for work in (lambda: strandlab.hotpress(strandlab.Case.ready("hot_osb"), on_progress=stop),
+                     lambda: strandlab.test(panels, on_progress=stop)):
+            with self.assertRaisesRegex(KeyError, "enough"):
+                work()
+
     def test_glue_points_lie_between_their_strands(self):
         panel = self.result.panels[-1]
         points = strandlab.cure(panel)
@@ -357,6 +381,22 @@ class Plates(unittest.TestCase):
                     np.testing.assert_array_equal(np.asarray(ours[column]), np.asarray(theirs.table(name)[column]), err_msg=column)
         with self.assertRaisesRegex(strandlab.InputError, "a mat in 3D"):
             strandlab.form(case)
+
+    def test_a_plate_pressed_from_python_has_the_files_of_the_program(self):
+        mat = {"dim": 3, "length_mm": 12, "width_mm": 12, "layer_thickness_mm": 0.8, "sides": "periodic", "layers": [
+            {"role": role, "strands": [{"cx": place, "cy": place, "length": 9, "width": 9, "angle_deg": angle}]}
+            for role, place, angle in (("surface", 6, 10), ("core", 0, 80))]}
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "mat.json")
+            file.write_text(json.dumps(mat), encoding="utf-8")
+            case = strandlab.Case.ready("osb").changed({
+                "mat.file": file, "press.compactions": [0, 0.2], "press.speed_m_s": 32, "grid.cells_through_strand": 1, "grid.cell_aspect": 4,
+                "test.element_length_mm": 4, "test.elements_through_strand": 1, "glue.compliance_t_mm_per_MPa": [0.0105]})
+            pathlib.Path(folder, "case.toml").write_text(case.to_toml(), encoding="utf-8")
+            strandlab.run(case, folder=f"{folder}/ours")
+            program("run", f"{folder}/case.toml", "-o", f"{folder}/theirs")
+            for name in ("press.csv", "moduli.csv", "abd.csv", "density_map.csv"):
+                self.assertEqual(*(pathlib.Path(folder, whose, name).read_bytes() for whose in ("ours", "theirs")), name)
 
 
 class Studies(unittest.TestCase):

@@ -207,11 +207,21 @@ class Replay final : public MatMechanics {
 
 }  // namespace
 
-Band press_in_band(const Settings& settings, const PressedMat& mat) {
-  auto cycle = press_hot(settings, mat);
-  const auto own = answers(cycle);
-  const auto with = [&](double factor) { return answers(press_hot(with_permeability(settings, factor), mat)); };
-  return {std::move(cycle), own, with(3), with(1. / 3)};
+Band press_in_band(const Settings& settings, const PressedMat& mat, const Told& told) {
+  int number = 0;
+  const auto pressed = [&](const Settings& s) {
+    const Watch watch{[&](const Instant& now, const auto& /*state*/) {
+                        if (told) told(number, now);
+                      },
+                      nullptr};
+    auto cycle = press_hot(s, mat, watch);
+    ++number;
+    return cycle;
+  };
+  auto cycle = pressed(settings);
+  const auto own = answers(cycle), permeable = answers(pressed(with_permeability(settings, 3)));
+  const auto tight = answers(pressed(with_permeability(settings, 1. / 3)));
+  return {std::move(cycle), own, permeable, tight};
 }
 
 Band in_band(Cycle cycle, const PressedMat& mat) {

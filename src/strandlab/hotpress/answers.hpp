@@ -1,6 +1,7 @@
 // What a press cycle means to who runs the press: how long to press, how hot, how dense, and whether it may blow.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,7 +56,10 @@ struct Band {
   Answers answers, permeable, tight;
 };
 // Presses three times. Throws as press_hot().
-Band press_in_band(const Settings& settings, const PressedMat& mat);
+// `told`, where given, is called after every step with the number of the cycle (0 to 2) and its instant; what it throws
+// ends the work.
+using Told = std::function<void(int cycle, const Instant& now)>;
+Band press_in_band(const Settings& settings, const PressedMat& mat, const Told& told = nullptr);
 // The band of a cycle that is there: heat and moisture go once more through the thicknesses it recorded.
 Band in_band(Cycle cycle, const PressedMat& mat);
 

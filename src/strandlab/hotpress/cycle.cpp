@@ -573,9 +573,19 @@ MatSize size_of(const PressedMat& mat) {
   return size;
 }
 
-Cycle press_hot(const Settings& settings, const PressedMat& mat) {
+Cycle press_hot(const Settings& settings, const PressedMat& mat, const Watch& watch) {
   const auto mechanics = mechanics_of(settings, mat);
-  return press_hot(settings, mat, *mechanics, {}, {});
+  return press_hot(settings, mat, *mechanics, watch, {});
+}
+
+double duration(const Settings& settings) {
+  if (settings.log) {
+    const auto& points = settings.log->position.empty() ? settings.log->pressure : settings.log->position;
+    return points.back().at - points.front().at;
+  }
+  double end = 0;
+  for (const auto& phase : settings.schedule) end = phase.until ? *phase.until : end + phase.seconds.value_or(0);
+  return end;
 }
 
 Cycle press_hot(const Settings& settings, const PressedMat& mat, MatMechanics& mechanics, const Watch& watch,

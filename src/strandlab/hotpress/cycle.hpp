@@ -88,16 +88,19 @@ struct Cycle {
   std::vector<std::string> warnings;
 };
 
-// Presses the mat, as a column or of uniform density. Throws InputError for a schedule or settings that cannot be
-// followed, RunError where the solution fails.
-Cycle press_hot(const Settings& settings, const PressedMat& mat);
-
 // Who watches a cycle. What it throws ends the cycle.
 struct Watch {
   // After every step. state() is the whole state of the cycle, its mechanics included, to go on from.
   std::function<void(const Instant& now, const std::function<std::vector<double>()>& state)> step;
   std::function<void(const Instant& now)> marked;  // at the ends of closing, of the hold and of the cycle
 };
+
+// Presses the mat, as a column or of uniform density. Throws InputError for a schedule or settings that cannot be
+// followed, RunError where the solution fails.
+Cycle press_hot(const Settings& settings, const PressedMat& mat, const Watch& watch = {});
+
+// How long the cycle takes by its schedule or log, s; closing under pressure may end before its time.
+double duration(const Settings& settings);
 
 // The same with the mat's mechanics of one's own, from the start or from a state that a watch was given.
 Cycle press_hot(const Settings& settings, const PressedMat& mat, MatMechanics& mechanics, const Watch& watch,

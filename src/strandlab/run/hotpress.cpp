@@ -21,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kCyclesOfBand = 3;  // permeability as set, three times it, a third of it
 constexpr std::array kFiles{"case.toml", "hotpress.csv", "transfer_profiles.csv", "run.json"};
 
 // Results of `strandlab run` are no hot press of ours to replace: their run.json knows of panels.
@@ -70,10 +71,17 @@ void write(const HotPressed& pressed, cases::Case c, const fs::path& folder) {
 
 }  // namespace
 
-HotPressed hotpress(const cases::Case& c) {
+HotPressed hotpress(const cases::Case& c, Observer& observer) {
   HotPressed pressed;
   pressed.notes = remarks_on(c);
-  pressed.band = hotpress::press_in_band(cases::hotpress_settings(c), cases::pressed_mat(c, cases::make_mat(c)));
+  const auto settings = cases::hotpress_settings(c);
+  const double whole = std::max(1., hotpress::duration(settings));
+  const auto told = [&](int cycle, const hotpress::Instant& now) {
+    stop_if_cancelled(observer);
+    observer.progress({"hotpress", (cycle + std::clamp(now.time / whole, 0., 1.)) / kCyclesOfBand,
+                       fmt::format("cycle {} of {}, {:.0f} s", cycle + 1, kCyclesOfBand, now.time)});
+  };
+  pressed.band = hotpress::press_in_band(settings, cases::pressed_mat(c, cases::make_mat(c)), told);
   const auto& warnings = pressed.band.cycle.warnings;
   pressed.notes.insert(pressed.notes.end(), warnings.begin(), warnings.end());
   for (const auto& remark : hotpress::remarks(pressed.band.cycle, pressed.band.answers))
@@ -81,9 +89,9 @@ HotPressed hotpress(const cases::Case& c) {
   return pressed;
 }
 
-HotPressed hotpress(const cases::Case& c, const Place& place) {
+HotPressed hotpress(const cases::Case& c, const Place& place, Observer& observer) {
   refuse_folder(place.folder, place.force);
-  auto pressed = hotpress(c);
+  auto pressed = hotpress(c, observer);
   write(pressed, c, place.folder);
   return pressed;
 }

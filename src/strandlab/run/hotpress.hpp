@@ -7,6 +7,7 @@
 #include "strandlab/case/case.hpp"
 #include "strandlab/hotpress/answers.hpp"
 #include "strandlab/run/folder.hpp"
+#include "strandlab/run/observer.hpp"
 
 namespace strandlab::run {
 
@@ -15,11 +16,11 @@ struct HotPressed {
   std::vector<std::string> notes;  // what a user should be told, warnings of the cycle among it
 };
 
-// Throws InputError as cases::hotpress_settings().
-HotPressed hotpress(const cases::Case& c);
+// Throws InputError as cases::hotpress_settings(), Cancelled when the observer stops it.
+HotPressed hotpress(const cases::Case& c, Observer& observer);
 
 // The same, and leaves case.toml, hotpress.csv, transfer_profiles.csv and run.json in the folder. Throws InputError,
 // with nothing written, for a folder of other results, or of these without `force`.
-HotPressed hotpress(const cases::Case& c, const Place& place);
+HotPressed hotpress(const cases::Case& c, const Place& place, Observer& observer);
 
 }  // namespace strandlab::run
