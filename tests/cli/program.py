@@ -45,7 +45,7 @@ def finish():
 
 def strandlab(*arguments, **options):
     """Result with returncode, stdout, stderr."""
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300, check=False, **options)
+    return subprocess.run([PROGRAM, *map(str, arguments)], **{"capture_output": True, "text": True, "timeout": 300, "check": False} | options)
 
 
 @contextlib.contextmanager

@@ -18,13 +18,15 @@ namespace {
 constexpr double kNsPerParticleStep = 80;         // one thread, mean over a pressing to 40 %
 constexpr double kSpeedUpPerThread = 0.7;         // of each further thread
 constexpr double kHotCost = 1.4;                  // of wood that heat softens, over that
-constexpr double kHotRamps = 1.5;                 // time steps get shorter as the mat gets thinner, ramps are longer
-constexpr double kSettlings = 80;                 // transits of waves through cold wood in which a hot mat settles
-constexpr double kBytesPerParticle = 700;         // of a pressing, grid included
+constexpr double kHotRamps = 1.2;                 // ramps are longer
+constexpr double kSettlings = 87;                 // transits of waves through cold wood in which a hot mat settles
+constexpr double kHotSteps = 1.45;                // crushed so far, particles want shorter steps
+constexpr double kBytesPerParticle = 2500;        // of a whole run at its largest, tests included
 constexpr double kBytesPerStrand = 2000;          // in the mat, its text, the panel and the engine
-constexpr double kStoredBytesPerParticle = 600;   // of one state: HDF5 and ParaView
-constexpr double kFrameBytes = 5e7;               // all frames of the pressing: 41 coarse panels of 8000 cells
-constexpr double kSolveSecondsPerElement = 4e-6;  // of a virtual test, per factorisation and element
+constexpr double kStoredBytesPerParticle = 250;   // of one state: HDF5 and ParaView
+constexpr double kFrameBytes = 4e7;               // all frames of the pressing: 41 coarse panels of 8000 cells
+constexpr double kSolveSecondsPerElement = 1e-5;  // of virtual tests, per 1/D_t and element
+constexpr double kGapSolves = 3;                  // how much the moduli hang on glue.max_gap_mm
 constexpr double kSolveExponent = 1.2;            // sparse Cholesky in two dimensions
 constexpr double kElementsAtReference = 1e5;
 
@@ -61,12 +63,12 @@ double elements(const Case& c, const Panel<2>& panel) {
   for (const auto& strand : panel.strands) {
     const double length = strand.lattice.extent(0);
     const int through = mat::through(strand.lattice.thickness(), thinnest, c.test.elements_through_strand);
-    count += through * length / (thinnest / c.test.elements_through_strand * c.grid.cell_aspect);
+    count += through * length / (thinnest / c.test.elements_through_strand);  // as long as they are thick
   }
   return count;
 }
 
-// Of the engine, s: the press closes with longer ramps, then the mat settles again and again (hotpress/strands.cpp).
+// Of the engine, s: the press closes, then the mat settles again and again (hotpress/strands.cpp).
 double hot_pressing_time(double closing_s, const Panel<2>& panel) {
   double slowest = 0, solid = 0;
   for (const auto& strand : panel.strands) {
@@ -132,7 +134,7 @@ Estimate estimate(const Case& c, const Panel<2>& panel) {
   const double travel_mm = panel.initial_thickness_mm * c.schedule.compactions.back();
   e.pressing_time_s = travel_mm / (1e3 * c.schedule.speed_m_s) / (1 - c.schedule.ramp_time_fraction / 2);
   if (presses_hot(c)) e.pressing_time_s = hot_pressing_time(e.pressing_time_s, panel);
-  e.steps = std::ceil(e.pressing_time_s / e.time_step_s);
+  e.steps = std::ceil(e.pressing_time_s / e.time_step_s * (presses_hot(c) ? kHotSteps : 1));
 
   const auto n = static_cast<double>(e.particles);
   const auto states = static_cast<double>(c.schedule.compactions.size());
@@ -142,8 +144,9 @@ Estimate estimate(const Case& c, const Panel<2>& panel) {
   const double ns = kNsPerParticleStep * (presses_hot(c) ? kHotCost : 1);
   e.press_s = n * e.steps * ns * 1e-9 / speed_up;
   const double element_count = elements(c, panel);
-  e.test_s = states * static_cast<double>(c.test.compliance_t_mm_per_MPa.size()) * element_count *
-             kSolveSecondsPerElement * std::pow(element_count / kElementsAtReference, kSolveExponent - 1);
+  const double solves = states * (static_cast<double>(c.test.compliance_t_mm_per_MPa.size()) + kGapSolves);
+  e.test_s = solves * element_count * kSolveSecondsPerElement *
+             std::pow(element_count / kElementsAtReference, kSolveExponent - 1);
   return e;
 }
 
