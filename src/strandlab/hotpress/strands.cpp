@@ -30,6 +30,7 @@ constexpr double kRead = .5;             // part of the settling, its end, from 
 // MPa: what it last felt while closing within bounds, the upper one while opening.
 constexpr double kServoTransits = 1.5, kSoftest = 20, kServoModulus = 300;
 constexpr double kReached = .02;      // of the pressure wanted: near enough. Judgement
+constexpr double kLeastRest = .1;     // of an exchange's time, in which it is held: yield would feel it pass too fast
 constexpr double kTouches = .01;      // of the stress last held: what an open press no longer feels
 constexpr double kFiltered = .3;      // transits over which the pressure that it sees is averaged
 constexpr double kServoSpeed = .25;   // of the platens' speed, at most, under control of pressure
@@ -244,7 +245,7 @@ void StrandMechanics::press(const Move& move, double seconds) {
   double rest = seconds;
   if (limited_ && from > least_ && stress_ < kMPa * wanted) {
     close(least_, move.stop / kMm, seconds, wanted);
-    rest *= (gap() - least_) / (from - least_);
+    rest *= std::max(kLeastRest, (gap() - least_) / (from - least_));
     if (gap() <= least_ * (1 + 1e-9)) {
       wanted_ = kMPa * wanted;
       by_pressure_ = true;
