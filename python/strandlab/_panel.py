@@ -19,13 +19,23 @@ _WOODS = ("#d9a441", "#b5732a", "#7a4a1f")
 class Strand:
     """A strand: material points on a lattice of counts[0] along x counts[1] through it, numbered along first.
 
-    strand["position_mm"] and the other fields of Strand.units() are read-only views without a copy: one value per point, vectors
-    as (points, 2), the deformation gradient as (points, 2, 2), stresses as (points, 6) in the strand's axes.
+    Its fields are read-only views of the library's memory, without a copy, that keep their panel alive:
+
+        strand["position_mm"]           (points, 2)     mm: along the panel, height
+        strand["velocity_mm_s"]         (points, 2)     mm/s
+        strand["deformation_gradient"]  (points, 2, 2)  1: F[:, i, j] = dx_i/dX_j since formation
+        strand["kirchhoff_stress_MPa"]  (points, 6)     MPa, in the strand's axes: 11 22 33 23 13 12
+        strand["plastic_strain"]        (points,)       1
+
+    and what else Strand.units() names, one value per point. The mesh, corners_mm() and cells(), is not stored but follows from them: it is
+    computed at the first call, and kept.
     """
 
     def __init__(self, strand: core.Strand) -> None:
         self._core = strand
         self._fields = strand.fields
+        self._corners: np.ndarray[Any, Any] | None = None
+        self._cells: np.ndarray[Any, Any] | None = None
 
     @staticmethod
     def units() -> dict[str, tuple[str, str]]:
@@ -59,15 +69,20 @@ class Strand:
 
     @property
     def fields(self) -> dict[str, np.ndarray[Any, Any]]:
-        return self._fields
+        """All fields by name."""
+        return dict(self._fields)
 
     def corners_mm(self) -> np.ndarray[Any, Any]:
-        """Positions of the corners of the points' cells, (corners, 2), mm; one more than the points on each axis."""
-        return self._core.corners()
+        """Positions of the corners of the points' cells, (corners, 2), mm; one more than the points on each axis. Read-only."""
+        if self._corners is None:
+            self._corners = self._core.corners()
+        return self._corners
 
     def cells(self) -> np.ndarray[Any, Any]:
-        """Numbers of the four corners of each point's cell, (points, 4), counter-clockwise."""
-        return self._core.cells()
+        """Numbers of the four corners of each point's cell, (points, 4), counter-clockwise. Read-only."""
+        if self._cells is None:
+            self._cells = self._core.cells()
+        return self._cells
 
     def __getitem__(self, field: str) -> np.ndarray[Any, Any]:
         return self._fields[field]
@@ -88,6 +103,7 @@ class Panel:
         self.case = case
         self.compaction = compaction  # that was asked for; the pressing stopped within a time step of it
         self.strands: list[Strand] = [Strand(strand) for strand in panel.strands]
+        self._joined: dict[str, np.ndarray[Any, Any]] = {}  # fields of all points, where they were asked for
 
     @property
     def length_mm(self) -> float:
@@ -105,7 +121,8 @@ class Panel:
 
     @property
     def fields(self) -> dict[str, np.ndarray[Any, Any]]:
-        """The fields of all points, strand after strand: copies, where each strand's own are views."""
+        """The fields of all points, strand after strand, with shapes and units as Strand has them. Each strand has memory of its own, so
+        they are copies, where its own fields are views; they are made at the first call and kept. Read-only."""
         return {field: self[field] for field in self.strands[0].fields}
 
     def __getitem__(self, field: str) -> np.ndarray[Any, Any]:
@@ -113,7 +130,11 @@ class Panel:
 
         if field not in self.strands[0].fields:
             raise KeyError(f"the points of this panel have no field {field}; they have {', '.join(self.strands[0].fields)}")
-        return np.concatenate([strand[field] for strand in self.strands])
+        if field not in self._joined:
+            joined = np.concatenate([strand[field] for strand in self.strands])
+            joined.setflags(write=False)
+            self._joined[field] = joined
+        return self._joined[field]
 
     def to_vtk(self, file: str | os.PathLike[str]) -> None:
         """Writes a .vtu file for ParaView."""

@@ -98,13 +98,14 @@ Diagnosis self() {
   try {
     const auto test = self_test();
     const bool good = test.difference <= kSelfTestLimit;
-    return {good ? State::kGood : State::kBad, "self-test",
-            fmt::format("{} bits as pressed, numbers differ by {:.0e}, limit {:.0e}",
-                        test.same_bits ? "the same" : "other", test.difference, kSelfTestLimit),
-            !good ? "this build does not compute what it should: do not use it, and tell us"
-            : !test.same_bits
-                ? "built by another compiler than g++ 12, or tuned to a machine; results agree to the limit"
-                : ""};
+    return {
+        good ? State::kGood : State::kBad, "self-test",
+        fmt::format("{} bits as pressed, numbers differ by {:.0e}, limit {:.0e}", test.same_bits ? "the same" : "other",
+                    test.difference, kSelfTestLimit),
+        !good ? "this build does not compute what it should: do not use it, and tell us"
+        : !test.same_bits
+            ? "built by another compiler than g++ 12, tuned to a machine, or another libm; results agree to the limit"
+            : ""};
   } catch (const std::exception& e) {
     return {State::kBad, "self-test", "", fmt::format("did not run: {}", e.what())};
   }
