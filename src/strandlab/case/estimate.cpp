@@ -22,6 +22,7 @@ constexpr double kHotRamps = 1.2;                 // ramps are longer
 constexpr double kSettlings = 87;                 // transits of waves through cold wood in which a hot mat settles
 constexpr double kHotSteps = 1.45;                // crushed so far, particles want shorter steps
 constexpr double kBytesPerParticle = 2500;        // of a whole run at its largest, tests included
+constexpr double kLeastBytes = 700;               // of them, without which not even a pressing goes
 constexpr double kBytesPerStrand = 2000;          // in the mat, its text, the panel and the engine
 constexpr double kStoredBytesPerParticle = 250;   // of one state: HDF5 and ParaView
 constexpr double kFrameBytes = 4e7;               // all frames of the pressing: 41 coarse panels of 8000 cells
@@ -35,7 +36,7 @@ double memory_bytes(double particles) {
 }
 
 void refuse_too_large(double length_mm, double strands, double particles) {
-  const double needed = memory_bytes(particles) + strands * kBytesPerStrand, free = free_memory_bytes();
+  const double needed = particles * kLeastBytes + strands * kBytesPerStrand, free = free_memory_bytes();
   if (needed < free) return;
   throw InputError(
       fmt::format("the panel of {} mm would have {:.3g} strands and {:.3g} particles and need {:.3g} MB of memory, of "
