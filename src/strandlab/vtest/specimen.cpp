@@ -74,7 +74,7 @@ double volume(const Strand<2>& strand) {
 }  // namespace
 
 Specimen cut_to_window(const Panel<2>& panel) {
-  constexpr double kSliver = 0.5;  // columns
+  constexpr double kSliverColumns = 0.5;  // columns
   Specimen specimen;
   specimen.panel = panel;
   specimen.panel.strands.clear();
@@ -93,7 +93,7 @@ Specimen cut_to_window(const Panel<2>& panel) {
     }
     specimen.furthest_mm = std::max(specimen.furthest_mm, beyond);
     const auto part = part_inside(line, panel.length_mm);
-    if (!part || part->to - part->from < kSliver) {
+    if (!part || part->to - part->from < kSliverColumns) {
       ++specimen.strands_outside;
       continue;
     }
