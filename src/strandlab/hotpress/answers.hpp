@@ -56,8 +56,9 @@ struct Band {
   Answers answers, permeable, tight;
 };
 // Presses three times. Throws as press_hot().
-// `told`, where given, is called after every step with the number of the cycle (0 to 2) and its instant; what it throws
-// ends the work.
+// `told`, where given, is called after every step with the number of the cycle, from 0 on, and its instant; what it
+// throws ends the work.
+inline constexpr int kCyclesOfBand = 3;  // permeability as set, three times it, a third of it
 using Told = std::function<void(int cycle, const Instant& now)>;
 Band press_in_band(const Settings& settings, const PressedMat& mat, const Told& told = nullptr);
 // The band of a cycle that is there: heat and moisture go once more through the thicknesses it recorded.

@@ -99,7 +99,8 @@ struct Watch {
 // followed, RunError where the solution fails.
 Cycle press_hot(const Settings& settings, const PressedMat& mat, const Watch& watch = {});
 
-// How long the cycle takes by its schedule or log, s; closing under pressure may end before its time.
+// How long the cycle takes by its schedule or log, s. Closing under pressure may end before its time; closing at a
+// given speed, for which a mat is needed, counts for nothing.
 double duration(const Settings& settings);
 
 // The same with the mat's mechanics of one's own, from the start or from a state that a watch was given.

@@ -28,7 +28,7 @@ constexpr int kDampedSteps = 4;          // steps between dampings
 constexpr double kRead = .5;             // part of the settling, its end, from which forces are read
 // Control of pressure: the time in transits in which it aims to be there, and the modulus that it expects of the mat,
 // MPa: what it last felt while closing within bounds, the upper one while opening.
-constexpr double kServoTransits = 1.5, kSoftest = 20, kServoModulus = 300;
+constexpr double kServoTransits = 1.5, kSoftest = 20;
 constexpr double kReached = .02;      // of the pressure wanted: near enough. Judgement
 constexpr double kLeastRest = .1;     // of an exchange's time, in which it is held: yield would feel it pass too fast
 constexpr double kTouches = .01;      // of the stress last held: what an open press no longer feels
@@ -240,26 +240,27 @@ Moved StrandMechanics::move(const Move& move, const std::vector<transfer::CellSt
 // far as they may; then the servo holds it.
 void StrandMechanics::press(const Move& move, double seconds) {
   const double from = gap();
-  least_ = std::max({move.stop, kMm * from - move.fastest * seconds, (1 - kLongestClosing) * kMm * from}) / kMm;
+  const double least =
+      std::max({move.stop, kMm * from - move.fastest * seconds, (1 - kLongestClosing) * kMm * from}) / kMm;
   const double wanted = std::max(0., move.stress) / kMPa;
   double rest = seconds;
-  if (limited_ && from > least_ && stress_ < kMPa * wanted) {
-    close(least_, move.stop / kMm, seconds, wanted);
-    rest *= std::max(kLeastRest, (gap() - least_) / (from - least_));
-    if (gap() <= least_ * (1 + 1e-9)) {
+  if (limited_ && from > least && stress_ < kMPa * wanted) {
+    close(least, move.stop / kMm, seconds, wanted);
+    rest *= std::max(kLeastRest, (gap() - least) / (from - least));
+    if (gap() <= least * (1 + 1e-9)) {
       wanted_ = kMPa * wanted;
       by_pressure_ = true;
       return;
     }
     sum_s_ = sum_top_ = sum_bottom_ = 0;
   }
-  settle(move, rest);
+  settle(move, rest, least);
 }
 
 // What came of it: the mat's modulus while it gave way, and whether the pressure was reached.
 void StrandMechanics::judge(const Move& move, double gap_before, double stress_before) {
   const double strain = 1 - gap() / gap_before, more = (stress_ - stress_before) / kMPa;
-  if (strain > .1 * kLongestClosing && more > 0) modulus_ = std::clamp(more / strain, kSoftest, kServoModulus);
+  if (strain > .1 * kLongestClosing && more > 0) modulus_ = std::clamp(more / strain, kSoftest, kStiffest);
   at_stop_ = move.stop > 0 && gap() * kMm <= move.stop * (1 + 1e-9);
   limited_ = at_stop_ || stress_ < (1 - kReached) * wanted_;
 }
@@ -319,8 +320,8 @@ void StrandMechanics::listen(double dt, double area, double wave) {
   filtered_ += (now_ - filtered_) * std::min(1., dt / (kFiltered * wave));
 }
 
-// At rest, or under a pressure, until the mat is: damped.
-void StrandMechanics::settle(const Move& move, double seconds) {
+// At rest, or under a pressure and no closer than the least gap (mm), until the mat is: damped.
+void StrandMechanics::settle(const Move& move, double seconds, double least) {
   const double wave = transit(), time = kSettling * wave, begin = engine_->state().time_s;
   const double damping = kDamping * std::numbers::pi / wave;
   const double full = how_.speed_m_s / kMm;
@@ -333,12 +334,12 @@ void StrandMechanics::settle(const Move& move, double seconds) {
     if (move.by_pressure) {
       // The mean lags behind the mat: where the platens feel no more than wanted now, they do not open further.
       const double felt = std::min(filtered_, std::max(wanted, now_));
-      const double modulus = filtered_ < wanted ? modulus_ : kServoModulus;
+      const double modulus = filtered_ < wanted ? modulus_ : kStiffest;
       closing = -gap() * ((filtered_ > wanted ? felt : filtered_) - wanted) / (modulus * kServoTransits * wave);
       closing = std::clamp(closing, -kServoSpeed * full, kServoSpeed * full);
-      closing = std::min(closing, std::max(0., gap() - least_) / dt);
+      closing = std::min(closing, std::max(0., gap() - least) / dt);
     } else if (move.height / kMm > gap()) {  // as far as the mat follows
-      const double way = gap() * std::max(0., std::min(filtered_, now_)) / (kServoModulus * kServoTransits * wave);
+      const double way = gap() * std::max(0., std::min(filtered_, now_)) / (kStiffest * kServoTransits * wave);
       closing = -std::min({kServoSpeed * full, (move.height / kMm - gap()) / dt, way});
     }
     step(closing, seconds / time);

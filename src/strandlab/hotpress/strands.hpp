@@ -32,6 +32,8 @@ struct StrandPress {
 
 class StrandMechanics final : public MatMechanics {
  public:
+  static constexpr double kStiffest = 300;  // MPa, that control of pressure expects of a mat. Judgement
+
   // The mat as formed, its strands of crushing or of Hill's wood. Throws InputError for strands whose stiffness is
   // softened already (StrandKind::stiffness_factor): heat does that here.
   StrandMechanics(const Panel<2>& mat, const StrandPress& how);
@@ -87,7 +89,7 @@ class StrandMechanics final : public MatMechanics {
   void close(double to_mm, double final_gap_mm, double seconds,
              double pressure_MPa = std::numeric_limits<double>::infinity());
   void press(const Move& move, double seconds);
-  void settle(const Move& move, double seconds);
+  void settle(const Move& move, double seconds, double least_gap_mm = 0);
   void listen(double dt, double area, double wave);
   void judge(const Move& move, double gap_before_mm, double stress_before);
   bool opens(const Move& move) const;
@@ -115,8 +117,7 @@ class StrandMechanics final : public MatMechanics {
   bool by_pressure_ = false;
   bool limited_ = false, at_stop_ = false;
   double now_ = 0, filtered_ = 0;  // MPa, of the last step under control and its mean over a part of a transit
-  double modulus_ = 300;           // MPa, of the mat while it last gave way under control
-  double least_ = 0;               // mm, gap to which this exchange may close
+  double modulus_ = kStiffest;     // MPa, of the mat while it last gave way under control
 
   double sum_s_ = 0, sum_top_ = 0, sum_bottom_ = 0;  // impulses of the part of an exchange that is read
   std::vector<press::Record> records_;

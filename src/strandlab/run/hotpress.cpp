@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kCyclesOfBand = 3;  // permeability as set, three times it, a third of it
 constexpr std::array kFiles{"case.toml", "hotpress.csv", "transfer_profiles.csv", "run.json"};
 
 // Results of `strandlab run` are no hot press of ours to replace: their run.json knows of panels.
@@ -78,8 +77,8 @@ HotPressed hotpress(const cases::Case& c, Observer& observer) {
   const double whole = std::max(1., hotpress::duration(settings));
   const auto told = [&](int cycle, const hotpress::Instant& now) {
     stop_if_cancelled(observer);
-    observer.progress({"hotpress", (cycle + std::clamp(now.time / whole, 0., 1.)) / kCyclesOfBand,
-                       fmt::format("cycle {} of {}, {:.0f} s", cycle + 1, kCyclesOfBand, now.time)});
+    observer.progress({"hotpress", (cycle + std::clamp(now.time / whole, 0., 1.)) / hotpress::kCyclesOfBand,
+                       fmt::format("cycle {} of {}, {:.0f} s", cycle + 1, hotpress::kCyclesOfBand, now.time)});
   };
   pressed.band = hotpress::press_in_band(settings, cases::pressed_mat(c, cases::make_mat(c)), told);
   const auto& warnings = pressed.band.cycle.warnings;

@@ -8,7 +8,7 @@
 namespace strandlab::run {
 
 struct Progress {
-  std::string step;     // "press", "test"
+  std::string step;     // "press", "test", "hotpress"
   double fraction = 0;  // of this step, 0..1
   std::string detail;   // for people: "compaction 0.131 of 0.4  step 5210  ..."
 };
@@ -27,7 +27,7 @@ class Observer {
 
   virtual void say(const std::string& /*line*/) {}
   virtual void warn(const std::string& /*line*/) {}
-  virtual void progress(const Progress& /*progress*/) {}  // a few times a second
+  virtual void progress(const Progress& /*progress*/) {}  // a few times a second; "hotpress" after every step
   // Asked before every time step and every solution of equations, so it must be quick: true ends the run within a
   // second by Cancelled. A run folder then holds what the run goes on from.
   virtual bool cancelled() { return false; }
