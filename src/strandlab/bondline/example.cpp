@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
@@ -66,7 +65,7 @@ std::string group_rows(const PublishedGroup& group, RandomStream& random) {
     specimens.push_back(strands(group, random));
     own_shear -= lower_bound_mm_per_MPa(specimens.back()) / group.n;
   }
-  const double t = boost::math::quantile(boost::math::students_t(group.n - 1), 0.975);
+  const double t = statistics::t_975(group.n - 1);
   const double sd = group.half_interval * std::sqrt(group.n) / t, mean = group.mean + own_shear;
   std::vector<double> total = log_normal(group.n, mean, std::min(sd / mean, kLargestVariation));
   shuffle(total, random);

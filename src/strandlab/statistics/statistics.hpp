@@ -14,6 +14,8 @@ struct Summary {
   double t = 0, p = 0;       // one-sample t-test of mean = 0, two-sided
 };
 Summary summarise(const std::vector<double>& values);
+// Half a 95 % interval over the standard error of its mean: the .975 quantile of Student's t.
+double t_975(double degrees_of_freedom);
 
 // Slopes of y on the columns of x by least squares, both given as deviations from the means of `groups` groups of rows,
 // each of which has a level of its own; n is the number of rows, sd the standard error of a slope, the interval and the

@@ -1,11 +1,11 @@
 #include "strandlab/vtest/plate_connection.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
 
+#include "strandlab/core/eigenvalues.hpp"
 #include "strandlab/vtest/specimen.hpp"
 
 namespace strandlab::vtest {
@@ -44,8 +44,8 @@ std::vector<bool> held_strands(const Panel<3>& panel, const Points& points) {
           (Tensor<3>() << 0, arm[2], -arm[1], -arm[2], 0, arm[0], arm[1], -arm[0], 0).finished();
       resistance += motion.transpose() * motion;
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> modes(resistance, Eigen::EigenvaluesOnly);
-    return modes.eigenvalues()[0] > kLoose * std::max(modes.eigenvalues()[5], 1e-300);
+    const auto modes = eigenvalues(resistance);
+    return modes[0] > kLoose * std::max(modes[5], 1e-300);
   };
   for (bool changed = true; changed;) {
     changed = false;
