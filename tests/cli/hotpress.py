@@ -75,6 +75,21 @@ def a_cycle():
     check("[hotpress.softening]" in resolved.stdout, "the resolved case has the keys of the hot press")
 
 
+def several_columns():
+    """A panel of .3 m, its ends open: a file of the whole section, symmetric, less gas at the ends; one column later leaves none."""
+    press("hot.toml", "-o", "wide", "--set", "hotpress.columns=5", "--set", "press.sides=free", "--set", "mat.length_mm=300")
+    held = [r for r in rows("wide/transfer_section.csv") if r["state"] == "held"]
+    check(len(held) == 5 * 20, "a line for each cell when held")
+    check(sorted({float(r["x_mm"]) for r in held}) == [30, 90, 150, 210, 270], "middles of five columns of 60 mm")
+    core = [max(float(r["gas_kPa"]) for r in held if float(r["x_mm"]) == x) for x in (30, 90, 150, 210, 270)]
+    check(core[0] < core[1] < core[2] and abs(core[0] - core[4]) < 1e-3 * core[2], f"gas along the section {core}")
+    profile = [float(r["gas_kPa"]) for r in rows("wide/transfer_profiles.csv") if r["state"] == "held"]
+    check(max(profile) == core[2], "the profiles are those of the middle column")
+    press("hot.toml", "-o", "wide", "--force")
+    check(not pathlib.Path("wide/transfer_section.csv").exists(), "one column has no section")
+    expect_bad_input(["hotpress", "hot.toml", "--set", "hotpress.columns=0"], ["hotpress.columns", "at least 1"])
+
+
 def results_are_kept():
     expect_bad_input(["hotpress", "hot.toml", "-o", "hot"], ["has results already; --force replaces them"])
     press("hot.toml", "-o", "hot", "--force")
@@ -204,6 +219,6 @@ def warnings():
 
 
 with scratch():
-    for test in (a_cycle, results_are_kept, a_case_without_hotpress, a_cold_run_says_so, logs, bad_schedules, warnings):
+    for test in (a_cycle, several_columns, results_are_kept, a_case_without_hotpress, a_cold_run_says_so, logs, bad_schedules, warnings):
         test()
 finish()

@@ -95,6 +95,8 @@ hotpress::Settings hotpress_settings(const Case& c) {
   s.moisture_core = h.moisture_core;
   s.face_fraction = h.face_fraction;
   s.cells = h.cells;
+  s.columns = h.columns;
+  s.open_ends = h.columns > 1 && c.sides == mpm::Side::kFree;
   s.step = h.step_s;
   s.fastest = 1e-3 * h.max_mm_per_s;
   s.rate.exponent = h.rate_exponent;
@@ -139,6 +141,7 @@ hotpress::PressedMat pressed_mat(const Case& c, const mat::Mat& mat) {
   const auto kinds = kinds_and_materials(c);
   hotpress::PressedMat pressed;
   pressed.thickness = 1e-3 * mat.thickness_mm();
+  pressed.length = 1e-3 * mat.length_mm;
   for (std::size_t row = 0; row < mat.layers.size(); ++row) {
     const auto& kind = find_kind(kinds, mat.layers[row].role, row);
     std::vector<hotpress::MatLayer> woods;  // strands of a row may be of several materials

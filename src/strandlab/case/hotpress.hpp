@@ -38,7 +38,7 @@ struct HotPressSettings {
   std::vector<std::string> schedule = hotpress::default_schedule();
   double moisture_face = .08, moisture_core = .05, face_fraction = .25;
   double panel_width_mm = 600;
-  int cells = 40;
+  int cells = 40, columns = 1;
   double step_s = .25;
   double max_mm_per_s = 5;
   double rate_exponent = .04;

@@ -64,6 +64,10 @@ std::vector<Declaration<HotPressSettings>> hot_mat_settings() {
           declare("panel_width_mm", "mm", kPositiveOrInfinite,
                   "width of the panel, along which gas escapes to the edges; inf: sealed edges", &H::panel_width_mm),
           declare("cells", "", {.lo = 4, .hi = 400}, "cells of equal mass through the mat", &H::cells),
+          declare("columns", "", {.lo = 1, .hi = 200},
+                  "columns of such cells along the section; of several, heat and gas also pass between them, and with "
+                  "press.sides = \"free\" out of its ends, as the panel's whole width",
+                  &H::columns),
           declare("step_s", "s", {.lo = 0.001, .hi = 2}, "time step to 30 s; twice that to 90 s, then four times",
                   &H::step_s),
           declare("rate_exponent", "", {.lo = 0, .hi = 0.5}, "stress grows as this power of the rate of crushing",

@@ -93,7 +93,7 @@ DensityAnswer density_of(const Instant& i, const MatSize& mat) {
 
 double blow_of(const Instant& i, const Settings& s) {
   double worst = 0;
-  for (const auto& cell : i.cells) {
+  for (const auto& cell : i.all()) {
     const auto& resin = cell.face ? s.resin_face : s.resin_core;
     const double bond = std::max(kLeastBond, transfer::bond_strength(resin, cell.cure()));
     worst = std::max(worst, cell.gas / (s.bond_strength * bond));
@@ -138,7 +138,7 @@ Answers answers(const Cycle& cycle) {
     if (i.stress > a.stress_peak) a.stress_peak = i.stress;
     if (i.time >= a.opening - 1e-9) a.blow = std::max(a.blow, blow_of(i, s));
   }
-  for (const auto& cell : end.cells) a.gas_at_opening = std::max(a.gas_at_opening, cell.gas);
+  for (const auto& cell : end.all()) a.gas_at_opening = std::max(a.gas_at_opening, cell.gas);
   a.press_time = record.front().time;
   for (const bool face : {true, false}) {
     const auto carries = [face](const CellReading& cell) { return cell.face == face; };
@@ -182,12 +182,12 @@ class Replay final : public MatMechanics {
   }
   std::vector<double> thickness() const override {
     std::vector<double> all;
-    const auto& cells = now().cells;
+    const auto& cells = now().all();
     all.reserve(cells.size());
-    for (const auto& cell : cells)
-      all.push_back(cycle_.mat.dry_mass / static_cast<double>(cells.size()) / cell.density);
+    for (std::size_t i = 0; i < cells.size(); ++i) all.push_back(cycle_.dry_mass[i] / cells[i].density);
     return all;
   }
+  std::vector<double> dry_mass(double /*of_mat*/, int /*cells*/) const override { return cycle_.dry_mass; }
   double stress() const override { return now().stress; }
   double height_unloaded() const override { return cycle_.thickness_unloaded; }
   double longest_step(double /*closing*/) const override {

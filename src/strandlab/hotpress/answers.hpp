@@ -25,7 +25,8 @@ struct DensityAnswer {
   double mean = 0, peak = 0, peak_depth = 0, skin = 0, core = 0;  // kg/m^3, depth in m below the nearer face
 };
 
-// Values the cycle did not reach are absent.
+// Values the cycle did not reach are absent. Of a section of several columns those of the middle one, but for densities
+// (means) and the gas that may blow the panel (the worst of all).
 struct Answers {
   std::optional<double> core_100C;                                    // s
   std::optional<double> plateau_start, plateau_length, plateau_mean;  // s, s, C: core rises by less than .1 K/s

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <span>
 
 #include "strandlab/core/error.hpp"
@@ -53,6 +54,8 @@ MatSize checked_size(const Settings& s, const PressedMat& pressed) {
   if (s.mechanics == Mechanics::kStrands) mat.solid_thickness = mat.thickness;  // it is touched at its highest strand
   refuse(!(mat.dry_mass > 0), "the mat has no mass to press");
   refuse(s.cells < 2 || s.cells > 1000, fmt::format("{} cells through the mat; there must be from 2 to 1000", s.cells));
+  refuse(s.columns < 1 || s.columns > 1000,
+         fmt::format("{} columns of cells along the mat; there must be from 1 to 1000", s.columns));
   refuse(!(s.step > 0), fmt::format("a time step of {} s; it must be greater than 0", s.step));
   if (s.log) return mat;
   check_targets(s.schedule, mat);
@@ -80,8 +83,9 @@ std::vector<Layer> layers_of(const std::vector<CellWood>& wood) {
 
 std::unique_ptr<MatMechanics> mechanics_of(const Settings& s, const PressedMat& mat) {
   const auto size = checked_size(s, mat);
-  if (s.mechanics == Mechanics::kUniform) return std::make_unique<UniformMechanics>(size.solid_thickness, s.cells);
-  return std::make_unique<ColumnMechanics>(layers_of(cut(mat, size.dry_mass, s.cells)), s.rate, s.softening);
+  if (s.mechanics == Mechanics::kUniform)
+    return std::make_unique<UniformMechanics>(size.solid_thickness, s.cells, s.columns);
+  return std::make_unique<ColumnMechanics>(layers_of(cut(mat, size.dry_mass, s.cells)), s.rate, s.softening, s.columns);
 }
 
 class Press {
@@ -90,14 +94,15 @@ class Press {
       : s_(settings),
         size_(checked_size(settings, mat)),
         layers_(mat.layers),
+        length_(mat.length),
         mechanics_(mechanics),
         watch_(watch),
         thickness_(mechanics.thickness()),
         solver_(make_solver()) {
     out_.settings = s_;
     out_.mat = size_;
-    cure_face_.assign(s_.cells, 0);
-    cure_core_.assign(s_.cells, 0);
+    cure_face_.assign(thickness_.size(), 0);
+    cure_core_.assign(thickness_.size(), 0);
     mechanics_.condition(solver_.state());
     list_stages();
   }
@@ -118,6 +123,8 @@ class Press {
     }
     if (!out_.record.empty() && out_.record.back().mark.empty()) mark("opened");
     out_.thickness_unloaded = mechanics_.height_unloaded();
+    out_.dry_mass = solver_.grid().dry_mass;
+    out_.length = length_;
     const auto drift = solver_.drift();
     for (int row = 0; row < 3; ++row)
       out_.worst_balance[row] = std::max(solver_.worst_balance_error()[row], std::abs(drift[row]));
@@ -150,10 +157,12 @@ class Press {
     const auto& k = s_.constants;
     transfer::Grid grid;
     grid.rows = s_.cells;
-    grid.dry_mass.assign(s_.cells, size_.dry_mass / s_.cells);
+    grid.columns = s_.columns;
+    grid.column_width = length_ / s_.columns;
+    grid.dry_mass = mechanics_.dry_mass(size_.dry_mass, s_.cells);
     std::vector<transfer::CellState> state;
     for (std::size_t i = 0; i < thickness_.size(); ++i) {
-      const double T = k.ambient_temperature, M = moisture(i);
+      const double T = k.ambient_temperature, M = moisture(i % static_cast<std::size_t>(s_.cells));
       const double vapour = transfer::relative_pressure(k, T, M) * transfer::saturation_pressure(T);
       state.push_back({T, M, k.ambient_pressure - vapour});
     }
@@ -161,16 +170,18 @@ class Press {
     start.thickness = thickness_;
     return {k, grid, state, start};
   }
+  // Of the highest column.
   double height() const {
-    double sum = 0;
-    for (const double t : thickness_) sum += t;
-    return sum;
+    double highest = 0;
+    for (auto first = thickness_.begin(); first != thickness_.end(); first += s_.cells)
+      highest = std::max(highest, std::accumulate(first, first + s_.cells, 0.));
+    return highest;
   }
   double gas(int cell) const { return solver_.cell(cell).p - s_.constants.ambient_pressure; }
   double gas_mean() const {
     double sum = 0;
-    for (int i = 0; i < s_.cells; ++i) sum += thickness_[i] * gas(i);
-    return sum / height();
+    for (std::size_t i = 0; i < thickness_.size(); ++i) sum += thickness_[i] * gas(static_cast<int>(i));
+    return sum / (s_.columns * height());
   }
 
   // ---- one step ----
@@ -191,6 +202,7 @@ class Press {
     const double t = start_ + time;
     c.bottom = faces == Faces::kOpen ? room : transfer::platen(interpolated(s_.platen_bottom, t), s_.contact);
     c.top = faces == Faces::kPlatens ? transfer::platen(interpolated(s_.platen_top, t), s_.contact) : room;
+    if (s_.columns > 1 && s_.open_ends) c.left = c.right = room;
     return c;
   }
 
@@ -244,15 +256,43 @@ class Press {
     at.platen_bottom = interpolated(s_.platen_bottom, at.time);
     at.heat = solver_.received()[transfer::kEnergy];
     at.water_out = -solver_.received()[transfer::kWater];
-    double depth = at.thickness;
-    for (int i = 0; i < s_.cells; ++i) {
-      const auto& state = solver_.state()[i];
-      depth -= thickness_[i];
-      at.cells.push_back({depth + .5 * thickness_[i], state.T, state.M, gas(i),
-                          solver_.grid().dry_mass[i] / thickness_[i], cure_face_[i], cure_core_[i],
-                          is_face(static_cast<std::size_t>(i))});
+    at.cells = readings(s_.columns / 2, at.thickness);
+    if (s_.columns > 1) {
+      for (int column = 0; column < s_.columns; ++column) {
+        const auto own = readings(column, at.thickness);
+        at.section.insert(at.section.end(), own.begin(), own.end());
+      }
+      average_density(at);
     }
     out_.record.push_back(std::move(at));
+  }
+
+  std::vector<CellReading> readings(int column, double thickness) const {
+    std::vector<CellReading> cells;
+    double depth = thickness;
+    for (int row = 0; row < s_.cells; ++row) {
+      const int i = column * s_.cells + row;
+      const auto& state = solver_.state()[i];
+      depth -= thickness_[i];
+      cells.push_back({depth + .5 * thickness_[i], state.T, state.M, gas(i), solver_.grid().dry_mass[i] / thickness_[i],
+                       cure_face_[i], cure_core_[i], is_face(static_cast<std::size_t>(row))});
+    }
+    return cells;
+  }
+
+  // Of cells that have the same part of their columns' mass below them: mass and thickness, mean over the columns.
+  void average_density(Instant& at) const {
+    double depth = at.thickness;
+    for (int row = 0; row < s_.cells; ++row) {
+      double mass = 0, thickness = 0;
+      for (int i = row; i < s_.columns * s_.cells; i += s_.cells) {
+        mass += solver_.grid().dry_mass[i] / s_.columns;
+        thickness += thickness_[i] / s_.columns;
+      }
+      depth -= thickness;
+      at.cells[row].depth = depth + .5 * thickness;
+      at.cells[row].density = mass / thickness;
+    }
   }
 
   // ---- phases ----
@@ -461,7 +501,7 @@ class Press {
     bool full = false;
     const auto& k = s_.constants;
     for (const auto& at : out_.record) {
-      for (const auto& cell : at.cells) {
+      for (const auto& cell : at.all()) {
         wettest = std::max(wettest, cell.M);
         densest = std::max(densest, cell.density);
         full = full || transfer::porosity(k, cell.density, cell.M) <= k.porosity_floor;
@@ -508,7 +548,7 @@ class Press {
     if (index < 0 || index >= std::ssize(words)) throw InputError("a stored cycle names no phase of a press");
     word = words[static_cast<std::size_t>(index)];
   }
-  static void visit_instant(Numbers& numbers, Instant& at) {
+  void visit_instant(Numbers& numbers, Instant& at) const {
     static constexpr std::array kPhases{"lead", "close", "hold", "vent", "open"};
     static constexpr std::array kMarks{"", "closed", "held", "opened"};
     visit_word(numbers, at.phase, kPhases);
@@ -516,11 +556,14 @@ class Press {
     for (auto* number : {&at.time, &at.thickness, &at.gap, &at.pressure, &at.stress, &at.platen_top, &at.platen_bottom,
                          &at.gas_mean, &at.heat, &at.water_out})
       numbers(*number);
-    numbers.each(at.cells, [&numbers](CellReading& cell) {
-      for (auto* number : {&cell.depth, &cell.T, &cell.M, &cell.gas, &cell.density, &cell.cure_face, &cell.cure_core})
-        numbers(*number);
-      numbers(cell.face);
-    });
+    for (auto* cells : {&at.cells, &at.section}) {
+      if (cells == &at.section && s_.columns == 1) continue;
+      numbers.each(*cells, [&numbers](CellReading& cell) {
+        for (auto* number : {&cell.depth, &cell.T, &cell.M, &cell.gas, &cell.density, &cell.cure_face, &cell.cure_core})
+          numbers(*number);
+        numbers(cell.face);
+      });
+    }
   }
 
   struct Stage {
@@ -531,6 +574,7 @@ class Press {
   Settings s_;
   MatSize size_;
   std::vector<MatLayer> layers_;
+  double length_;  // m
   MatMechanics& mechanics_;
   Watch watch_;
   std::vector<double> thickness_;

@@ -31,6 +31,7 @@ struct MatLayer {
 struct PressedMat {
   std::vector<MatLayer> layers;
   double thickness = 0;  // m, as formed, with its gaps
+  double length = 1;     // m, of the section; counts where it is cut into several columns
 };
 
 struct Settings {
@@ -42,10 +43,12 @@ struct Settings {
   double moisture_face = .08, moisture_core = .05;  // kg/kg
   double face_fraction = .25;                       // of the dry mass, on each side
   int cells = 40;                                   // through the thickness, of equal dry mass
-  double step = .25;                                // s, until 30 s; twice that until 90 s; then four times
-  double fastest = 5e-3;                            // m/s, of closing under pressure
-  double contact = 2000, room = 15;                 // W/(m^2 K), heat transfer from platens and to the room
-  double bond_strength = .17e6;  // Pa, of a hot bond fully cured: half of the internal bond of EN 300; judgement
+  int columns = 1;                                  // of cells along the section, of equal width
+  bool open_ends = false;  // of several columns: the section is the panel's whole width, the room at both its ends
+  double step = .25;       // s, until 30 s; twice that until 90 s; then four times
+  double fastest = 5e-3;   // m/s, of closing under pressure
+  double contact = 2000, room = 15;  // W/(m^2 K), heat transfer from platens and to the room
+  double bond_strength = .17e6;      // Pa, of a hot bond fully cured: half of the internal bond of EN 300; judgement
   transfer::Resin resin_face = transfer::resins()[0], resin_core = transfer::resins()[1];
   wood::RateEffect rate;
   Softening softening;
@@ -75,13 +78,19 @@ struct Instant {
   double gas_mean = 0;                       // Pa
   double heat = 0, water_out = 0;            // J/m^2 and kg/m^2 since the start
   std::string mark;                          // "closed", "held", "opened": ends of these phases
-  std::vector<CellReading> cells;            // bottom to top
+  // Bottom to top: temperature, moisture, gas and cure in the middle column; where there are several, depth and density
+  // are means over all.
+  std::vector<CellReading> cells;
+  std::vector<CellReading> section;  // where there are several columns: all their cells, left to right
+  const std::vector<CellReading>& all() const { return section.empty() ? cells : section; }
 };
 
 struct Cycle {
   Settings settings;
   MatSize mat;
   std::vector<Instant> record;        // after every step
+  std::vector<double> dry_mass;       // kg/m^2, by cell as Instant::all() lists them
+  double length = 0;                  // m, of the section
   double log_start = 0;               // s, first contact as a log counts time
   double thickness_unloaded = 0;      // m, at the end, elastic strains gone
   transfer::Amounts worst_balance{};  // largest relative error of a step, and of all steps

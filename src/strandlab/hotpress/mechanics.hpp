@@ -1,4 +1,5 @@
-// How a mat resists the press during a cycle: what cycle.hpp asks of it. Units are SI.
+// How a mat resists the press during a cycle: what cycle.hpp asks of it. Units are SI; cells are those of the
+// transfer's grid, column by column, bottom to top.
 #pragma once
 
 #include <memory>
@@ -43,6 +44,8 @@ class MatMechanics {
   // Moves in `seconds`, with temperatures and moisture contents as at the start of that time.
   virtual Moved move(const Move& move, const std::vector<transfer::CellState>& state, double seconds) = 0;
 
+  // kg/m^2, by cell, of a mat of so much on average: the same in all unless said.
+  virtual std::vector<double> dry_mass(double of_mat, int cells) const;
   virtual std::vector<double> thickness() const = 0;  // m, by cell
   virtual double stress() const = 0;                  // Pa, of the wood; not a number where there is none
   virtual double height_unloaded() const = 0;         // m, elastic strains gone
@@ -56,27 +59,31 @@ struct CellFactors {
 };
 CellFactors factors_of(const Softening& softening, const std::vector<transfer::CellState>& state);
 
-// A column of layers in series (column.hpp).
+// Columns of layers in series (column.hpp), side by side between the same platens.
 class ColumnMechanics : public MatMechanics {
  public:
-  ColumnMechanics(const std::vector<Layer>& layers, wood::RateEffect rate, const Softening& softening);
+  ColumnMechanics(const std::vector<Layer>& layers, wood::RateEffect rate, const Softening& softening, int columns = 1);
   void condition(const std::vector<transfer::CellState>& state) override;
   Moved move(const Move& move, const std::vector<transfer::CellState>& state, double seconds) override;
-  std::vector<double> thickness() const override { return column_.thickness(); }
-  double stress() const override { return column_.stress(); }
-  double height_unloaded() const override { return column_.height_unloaded(); }
-  void visit(Numbers& numbers) override { column_.visit(numbers); }
+  std::vector<double> thickness() const override;
+  double stress() const override;           // mean over the columns
+  double height_unloaded() const override;  // of the highest
+  void visit(Numbers& numbers) override;
 
  private:
+  void press_to(double height, double seconds);
+  void load(double stress, double seconds);  // on average
   Moved load(const Move& move, double seconds);
-  Column column_;
+  void for_each(const std::vector<transfer::CellState>& state,
+                void (Column::*act)(const std::vector<double>& stiffness, const std::vector<double>& yield));
+  std::vector<Column> columns_;
   Softening softening_;
 };
 
 // No resistance: of uniform thickness, moved by position only.
 class UniformMechanics : public MatMechanics {
  public:
-  UniformMechanics(double height, int cells) : height_(height), cells_(cells) {}
+  UniformMechanics(double height, int cells, int columns = 1) : height_(height), cells_(cells), columns_(columns) {}
   void condition(const std::vector<transfer::CellState>& /*state*/) override {}
   Moved move(const Move& move, const std::vector<transfer::CellState>& state, double seconds) override;
   std::vector<double> thickness() const override;
@@ -86,7 +93,8 @@ class UniformMechanics : public MatMechanics {
 
  private:
   double height_;
-  int cells_;
+  int cells_;  // through the thickness
+  int columns_;
 };
 
 }  // namespace strandlab::hotpress

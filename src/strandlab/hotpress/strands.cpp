@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/profile/profile.hpp"
@@ -36,6 +37,7 @@ constexpr double kFiltered = .3;      // transits over which the pressure that i
 constexpr double kServoSpeed = .25;   // of the platens' speed, at most, under control of pressure
 constexpr double kDuePressure = .2;   // of the stress held: its change for which the mat is settled anew
 constexpr double kMuchPrecure = .05;  // strength lost, of which a warning tells. Judgement
+constexpr double kMuchMoved = .01;    // of a column's mass, of which a warning tells. Judgement
 constexpr double kJudged = .5;        // of the largest stress: from where the mat bears it a pressing is judged
 
 double change(const std::vector<double>& before, const std::vector<double>& now) {
@@ -110,54 +112,95 @@ double StrandMechanics::longest_step(double closing) const {
 void StrandMechanics::read() {
   if (engine_) engine_->write(panel_);
   const int bins = kBinsPerCell * how_.cells;
-  const auto profile = profile::density_profile(panel_, bins);
-  double total = 0;
-  for (const double density : profile.density_kg_m3) total += density;
-  thickness_.assign(static_cast<std::size_t>(how_.cells), 0);
-  double below = 0, from = 0;
-  int cell = 1;
-  for (int k = 0; k < bins; ++k) {
-    const double here = profile.density_kg_m3[static_cast<std::size_t>(k)];
-    while (cell < how_.cells && below + here >= total * cell / how_.cells) {
-      const double to = k + (total * cell / how_.cells - below) / here;
-      thickness_[static_cast<std::size_t>(cell - 1)] = kMm * profile.bin_height_mm() * (to - from);
-      from = to;
-      ++cell;
+  const auto profiles = profile::density_profiles(panel_, bins, how_.columns);
+  thickness_.assign(static_cast<std::size_t>(how_.cells) * profiles.size(), 0);
+  std::vector<double> masses;
+  for (std::size_t column = 0; column < profiles.size(); ++column) {
+    const auto& profile = profiles[column];
+    double total = 0;
+    for (const double density : profile.density_kg_m3) total += density;
+    masses.push_back(total);
+    double* const thickness = &thickness_[column * static_cast<std::size_t>(how_.cells)];
+    double below = 0, from = 0;
+    int cell = 1;
+    for (int k = 0; k < bins; ++k) {
+      const double here = profile.density_kg_m3[static_cast<std::size_t>(k)];
+      while (cell < how_.cells && below + here >= total * cell / how_.cells) {
+        const double to = k + (total * cell / how_.cells - below) / here;
+        thickness[cell - 1] = kMm * profile.bin_height_mm() * (to - from);
+        from = to;
+        ++cell;
+      }
+      below += here;
     }
-    below += here;
+    thickness[how_.cells - 1] = kMm * profile.bin_height_mm() * (bins - from);
   }
-  thickness_.back() = kMm * profile.bin_height_mm() * (bins - from);
+  watch_columns(masses);
 }
 
-// Where every point of the panel lies among the cells, the first from 0 to 1.
-std::vector<double> StrandMechanics::places() const {
-  std::vector<double> faces{panel_.bottom_mm};
-  for (const double t : thickness_) faces.push_back(faces.back() + t / kMm);
+// How much of a column's mass has moved into another since the mat was formed.
+void StrandMechanics::watch_columns(const std::vector<double>& masses) {
+  const double mean = std::accumulate(masses.begin(), masses.end(), 0.) / static_cast<double>(masses.size());
+  if (masses_.empty()) {
+    for (const double mass : masses) {
+      if (!(mass > 0))
+        throw InputError(fmt::format("column {} of {} along the mat has no wood in it: hotpress.columns must be less",
+                                     &mass - masses.data() + 1, masses.size()));
+      masses_.push_back(mass / mean);
+    }
+  }
+  for (std::size_t i = 0; i < masses.size(); ++i)
+    moved_ = std::max(moved_, std::abs(masses[i] / mean / masses_[i] - 1));
+}
+
+std::vector<double> StrandMechanics::dry_mass(double of_mat, int cells) const {
   std::vector<double> all;
+  for (const double mass : masses_) all.insert(all.end(), static_cast<std::size_t>(cells), mass * of_mat / cells);
+  return all;
+}
+
+std::vector<StrandMechanics::Place> StrandMechanics::places() const {
+  const auto rows = static_cast<std::ptrdiff_t>(how_.cells);
+  std::vector<std::vector<double>> faces;  // of the cells, mm, by column
+  for (auto first = thickness_.begin(); first != thickness_.end(); first += rows) {
+    faces.push_back({panel_.bottom_mm});
+    std::for_each(first, first + rows, [&](double t) { faces.back().push_back(faces.back().back() + t / kMm); });
+  }
+  const auto within = [&](std::size_t column, double height) {
+    const auto& own = faces[column];
+    const auto above = std::upper_bound(own.begin() + 1, own.end() - 1, height);
+    const double part = (height - *(above - 1)) / (*above - *(above - 1));
+    return static_cast<double>(above - own.begin() - 1) + std::clamp(part, 0., 1.);
+  };
+  const double width = panel_.length_mm / how_.columns;
+  std::vector<Place> all;
   for (const auto& strand : panel_.strands) {
     for (const auto& x : strand.points.x) {
-      const auto above = std::upper_bound(faces.begin() + 1, faces.end() - 1, x[1]);
-      const auto cell = above - faces.begin() - 1;
-      const double part =
-          (x[1] - faces[static_cast<std::size_t>(cell)]) / (*above - faces[static_cast<std::size_t>(cell)]);
-      all.push_back(static_cast<double>(cell) + std::clamp(part, 0., 1.));
+      const double at = std::clamp(x[0] / width - .5, 0., how_.columns - 1.);
+      Place place;
+      place.column = static_cast<std::size_t>(at);
+      place.next = at - std::floor(at);
+      place.here = within(place.column, x[1]);
+      if (place.next > 0) place.there = within(place.column + 1, x[1]);
+      all.push_back(place);
     }
   }
   return all;
 }
 
-namespace {
-
-// Between the middles of cells, constant beyond the outermost.
+// `of` a cell: between the middles of cells, constant beyond the outermost.
 template <class Of>
-double between_cells(std::size_t cells, double place, const Of& of) {
-  const double at = std::clamp(place - .5, 0., static_cast<double>(cells) - 1);
-  const auto i = std::min(static_cast<std::size_t>(at), cells - 2);
-  const double part = at - static_cast<double>(i);
-  return (1 - part) * of(i) + part * of(i + 1);
+double StrandMechanics::between_cells(const Place& place, const Of& of) const {
+  const auto cells = static_cast<std::size_t>(how_.cells);
+  const auto within = [&](std::size_t column, double height) {
+    const double at = std::clamp(height - .5, 0., static_cast<double>(cells) - 1);
+    const auto i = std::min(static_cast<std::size_t>(at), cells - 2);
+    const double part = at - static_cast<double>(i);
+    return (1 - part) * of(column * cells + i) + part * of(column * cells + i + 1);
+  };
+  const double here = within(place.column, place.here);
+  return place.next > 0 ? (1 - place.next) * here + place.next * within(place.column + 1, place.there) : here;
 }
-
-}  // namespace
 
 StrandMechanics::Factors StrandMechanics::factors_of_points(const std::vector<transfer::CellState>& state) const {
   Factors factors;
@@ -167,8 +210,8 @@ StrandMechanics::Factors StrandMechanics::factors_of_points(const std::vector<tr
     auto& e = factors.stiffness.emplace_back();
     auto& g = factors.yield.emplace_back();
     for (std::size_t p = 0; p < strand.size(); ++p, ++n) {
-      const double T = between_cells(state.size(), place[n], [&](std::size_t i) { return state[i].T; });
-      const double M = between_cells(state.size(), place[n], [&](std::size_t i) { return state[i].M; });
+      const double T = between_cells(place[n], [&](std::size_t i) { return state[i].T; });
+      const double M = between_cells(place[n], [&](std::size_t i) { return state[i].M; });
       e.push_back(stiffness_factor(how_.softening, T, M));
       g.push_back(yield_factor(how_.softening, T, M));
     }
@@ -369,10 +412,10 @@ void StrandMechanics::record() {
   records_.push_back(r);
 }
 
-double StrandMechanics::of_resin(std::size_t strand, double place, const std::vector<Reading>& cells,
+double StrandMechanics::of_resin(std::size_t strand, const Place& place, const std::vector<Reading>& cells,
                                  double Resin::*value) const {
   const auto carried = how_.resin.empty() ? Carried::kOfItsLayer : how_.resin[strand];
-  return between_cells(cells.size(), place, [&](std::size_t i) {
+  return between_cells(place, [&](std::size_t i) {
     const bool face = carried == Carried::kFace || (carried == Carried::kOfItsLayer && cells[i].is_face);
     return (face ? cells[i].face : cells[i].core).*value;
   });
@@ -453,7 +496,7 @@ Panel<2> StrandMechanics::panel(const std::vector<Reading>& cells) const {
     const auto fill = [&](std::vector<double>& values, double Reading::*member) {
       values.clear();
       for (std::size_t p = n; p < n + points.size(); ++p)
-        values.push_back(between_cells(cells.size(), place[p], [&](std::size_t i) { return cells[i].*member; }));
+        values.push_back(between_cells(place[p], [&](std::size_t i) { return cells[i].*member; }));
     };
     fill(points.temperature, &Reading::T);
     fill(points.moisture, &Reading::M);
@@ -499,6 +542,10 @@ void StrandMechanics::visit(Numbers& numbers) {
   numbers(by_pressure_);
   numbers(limited_);
   numbers(at_stop_);
+  if (how_.columns > 1) {
+    numbers(masses_);
+    numbers(moved_);
+  }
 }
 
 // While gaps close, at little stress, inertia leaves no trace.
@@ -525,6 +572,12 @@ std::vector<std::string> StrandMechanics::warnings() const {
         fmt::format("The two platens felt forces that differed by up to {:.0f} % (limit {:.0f} %): the mat "
                     "was not pressed evenly. Lower press.speed_m_s.",
                     100 * imbalance, 100 * press::kForceLimit));
+  }
+  if (how_.columns > 1 && moved_ > kMuchMoved) {
+    list.push_back(
+        fmt::format("{:.1f} % of a column's mass has moved into or out of it (limit {:.0f} %), while heat and moisture "
+                    "are computed as if it stayed. Fewer hotpress.columns are wider.",
+                    100 * moved_, 100 * kMuchMoved));
   }
   if (precured() > kMuchPrecure) {
     list.push_back(fmt::format(

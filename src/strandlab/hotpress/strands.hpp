@@ -23,7 +23,8 @@ struct StrandPress {
   bool symmetric = false;  // both platens move, else the top one
   wood::RateEffect rate;
   Softening softening;
-  int cells = 40;                     // of equal mass, as the transfer has them
+  int cells = 40;                     // of equal mass through a column, as the transfer has them
+  int columns = 1;                    // of equal width along the section
   std::vector<Carried> resin;         // by strand; empty: all of their layers
   glue::CuringOptions curing;         // faces that are as near as to be glued have met
   double due = .15;                   // change of a layer's ln factor for which a mat at rest is settled anew
@@ -42,13 +43,15 @@ class StrandMechanics final : public MatMechanics {
 
   void condition(const std::vector<transfer::CellState>& state) override;
   Moved move(const Move& move, const std::vector<transfer::CellState>& state, double seconds) override;
+  // Of each column as much as lies in it of the mat as formed.
+  std::vector<double> dry_mass(double of_mat, int cells) const override;
   std::vector<double> thickness() const override { return thickness_; }
   double stress() const override { return stress_; }
   double height_unloaded() const override;  // the gap: it opens until the platens feel nothing
   double longest_step(double closing) const override;
   void visit(Numbers& numbers) override;
 
-  // What is told of a cell (bottom to top).
+  // What is told of a cell (column by column, bottom to top).
   struct Resin {
     double cure = 0, strength = 0;  // degree of cure; part of the strength of a bond that is fully cured
   };
@@ -73,10 +76,20 @@ class StrandMechanics final : public MatMechanics {
   struct Factors {
     std::vector<std::vector<double>> stiffness, yield;  // by strand, by point
   };
-  double gap() const;                  // mm
-  double transit() const;              // s, of a wave through the mat as formed
-  std::vector<double> places() const;  // of all points: mass below over all, times cells
-  double of_resin(std::size_t strand, double place, const std::vector<Reading>& cells, double Resin::*value) const;
+  // Where a point lies among the cells: between the middles of two columns, in each of them so many cells above its
+  // bottom, by mass.
+  struct Place {
+    std::size_t column = 0;
+    double next = 0;  // weight of the next column
+    double here = 0, there = 0;
+  };
+  double gap() const;                 // mm
+  double transit() const;             // s, of a wave through the mat as formed
+  std::vector<Place> places() const;  // of all points
+  template <class Of>
+  double between_cells(const Place& place, const Of& of) const;
+  double of_resin(std::size_t strand, const Place& place, const std::vector<Reading>& cells,
+                  double Resin::*value) const;
   std::vector<std::size_t> face_points() const;  // of all points, in the order of met_
   std::vector<double> strength_of_faces(const std::vector<Reading>& cells) const;
   Factors factors_of_points(const std::vector<transfer::CellState>& state) const;
@@ -85,6 +98,7 @@ class StrandMechanics final : public MatMechanics {
   void soften_by(double done);
   void feel(double seconds);  // adds to the impulses
   void read();                // panel and layers from the engine
+  void watch_columns(const std::vector<double>& masses);
   void step(double closing_mm_s, double seconds_per_second);
   void close(double to_mm, double final_gap_mm, double seconds,
              double pressure_MPa = std::numeric_limits<double>::infinity());
@@ -102,6 +116,8 @@ class StrandMechanics final : public MatMechanics {
   std::optional<mpm::Engine<2>> engine_;
   bool conditioned_ = false;
   std::vector<double> thickness_;  // m, by cell
+  std::vector<double> masses_;     // of the columns of the mat as formed, over their mean
+  double moved_ = 0;               // of a column's mass, that strands have carried into it or out of it, at most
   double stress_ = 0;              // Pa
   CellFactors last_;               // at the last exchange
   // By point of a strand's bottom, then of its top face, strand by strand: its resin's strength at the last exchange,

@@ -1,4 +1,4 @@
-// The domain of a material point, x +- F spacing/2, cut by horizontal planes. Mass is spread evenly over it.
+// The domain of a material point, x +- F spacing/2, cut by planes across an axis. Mass is spread evenly over it.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +10,18 @@
 
 namespace strandlab::profile {
 
-// Heights, mm, that the edges of a point's domain span: |F_ya spacing_a| of every axis a, the largest first.
+// Lengths along an axis, mm, that the edges of a point's domain span: |F_axis,a spacing_a| of every axis a, the largest
+// first. Heights are those along the last axis.
 template <int Dim>
-std::array<double, Dim> heights(const Tensor<Dim>& F, const Vec<Dim>& spacing) {
+std::array<double, Dim> spans(const Tensor<Dim>& F, const Vec<Dim>& spacing, int axis) {
   std::array<double, Dim> h{};
-  for (int a = 0; a < Dim; ++a) h[static_cast<std::size_t>(a)] = std::abs(F(Dim - 1, a) * spacing[a]);
+  for (int a = 0; a < Dim; ++a) h[static_cast<std::size_t>(a)] = std::abs(F(axis, a) * spacing[a]);
   std::sort(h.begin(), h.end(), [](double a, double b) { return a > b; });
   return h;
+}
+template <int Dim>
+std::array<double, Dim> heights(const Tensor<Dim>& F, const Vec<Dim>& spacing) {
+  return spans<Dim>(F, spacing, Dim - 1);
 }
 
 // Part of a parallelogram, whose edges span the heights tall >= small, that lies below the height z over its centre:

@@ -11,17 +11,17 @@
 namespace strandlab::profile {
 namespace {
 
-// Adds a mass spread over heights around `centre` (in bins, from the bottom face).
+// Adds a mass spread over lengths along an axis around `centre` (in bins, from the first one's edge).
 template <int Dim>
-void add(const std::array<double, Dim>& heights, double centre, double mass, std::vector<double>& bins) {
+void add(const std::array<double, Dim>& spans, double centre, double mass, std::vector<double>& bins) {
   const int count = static_cast<int>(bins.size());
   double reach = 0;
-  for (const double h : heights) reach += 0.5 * h;
+  for (const double h : spans) reach += 0.5 * h;
   const int first = std::clamp(static_cast<int>(std::floor(centre - reach)), 0, count - 1);
   const int last = std::clamp(static_cast<int>(std::floor(centre + reach)), 0, count - 1);
   double below = 0;
   for (int k = first; k <= last; ++k) {
-    const double upto = k == last ? 1 : part_below<Dim>(heights, k + 1 - centre);
+    const double upto = k == last ? 1 : part_below<Dim>(spans, k + 1 - centre);
     bins[static_cast<std::size_t>(k)] += mass * (upto - below);
     below = upto;
   }
@@ -44,24 +44,39 @@ Peak peak_from_bottom(const Profile& profile) {
 }  // namespace
 
 template <int Dim>
-Profile density_profile(const Panel<Dim>& panel, int bins) {
+std::vector<Profile> density_profiles(const Panel<Dim>& panel, int bins, int columns) {
   if (bins < 1) throw InputError(fmt::format("a density profile of {} bins: at least 1 is needed", bins));
+  if (columns < 1) throw InputError(fmt::format("density profiles of {} columns: at least 1 is needed", columns));
   Profile profile;
   profile.compaction = panel.compaction();
   profile.thickness_mm = panel.thickness_mm();
   const double area = panel.length_mm * (Dim == 2 ? 1 : panel.depth_mm);  // a section is counted per mm of depth
   if (!(profile.thickness_mm > 0 && area > 0)) throw InputError("a density profile needs a panel with a thickness");
   profile.density_kg_m3.assign(static_cast<std::size_t>(bins), 0.0);
-  const double height = profile.bin_height_mm();
+  std::vector<Profile> profiles(static_cast<std::size_t>(columns), profile);
+  const double height = profile.bin_height_mm(), width = panel.length_mm / columns;
+  std::vector<double> parts(profiles.size());  // of a domain, by column
   for (const auto& strand : panel.strands) {
     const double mass = strand.material.density / kTonnePerMm3 * strand.lattice.point_volume();  // kg/m^3 mm^3
     for (std::size_t p = 0; p < strand.size(); ++p) {
-      const auto spans = heights<Dim>(strand.points.F[p], strand.lattice.spacing / height);
-      add<Dim>(spans, (strand.points.x[p][Dim - 1] - panel.bottom_mm) / height, mass / (area * height),
-               profile.density_kg_m3);
+      const auto& F = strand.points.F[p];
+      const auto& x = strand.points.x[p];
+      const auto spans_of_bins = heights<Dim>(F, strand.lattice.spacing / height);
+      std::fill(parts.begin(), parts.end(), 0.0);
+      add<Dim>(spans<Dim>(F, strand.lattice.spacing / width, 0), x[0] / width, 1, parts);
+      for (std::size_t c = 0; c < parts.size(); ++c) {
+        if (parts[c] == 0) continue;
+        add<Dim>(spans_of_bins, (x[Dim - 1] - panel.bottom_mm) / height, parts[c] * mass / (area / columns * height),
+                 profiles[c].density_kg_m3);
+      }
     }
   }
-  return profile;
+  return profiles;
+}
+
+template <int Dim>
+Profile density_profile(const Panel<Dim>& panel, int bins) {
+  return density_profiles(panel, bins, 1).front();
 }
 
 double mean_between(const Profile& profile, double from, double to) {
@@ -137,5 +152,7 @@ double rms_difference(const Profile& a, const Profile& b) {
 
 template Profile density_profile<2>(const Panel<2>&, int);
 template Profile density_profile<3>(const Panel<3>&, int);
+template std::vector<Profile> density_profiles<2>(const Panel<2>&, int, int);
+template std::vector<Profile> density_profiles<3>(const Panel<3>&, int, int);
 
 }  // namespace strandlab::profile

@@ -25,6 +25,12 @@ struct Profile {
 template <int Dim>
 Profile density_profile(const Panel<Dim>& panel, int bins);
 
+// The same in each of `columns` equal parts of the window along the panel, left to right. Each part of a domain is
+// spread over the heights of the whole of it; what sticks out of an end counts in the column there. Throws InputError
+// for columns < 1, and as density_profile() does.
+template <int Dim>
+std::vector<Profile> density_profiles(const Panel<Dim>& panel, int bins, int columns);
+
 // Mean of a profile over the relative heights from..to (0 bottom face, 1 top face), kg/m^3.
 double mean_between(const Profile& profile, double from, double to);
 

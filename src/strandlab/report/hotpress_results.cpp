@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -13,7 +14,19 @@ namespace {
 using hotpress::Answers, hotpress::CellReading, hotpress::Cycle, hotpress::Instant;
 using Json = nlohmann::json;
 
-constexpr int kProfiles = 100;  // times of transfer_profiles.csv
+constexpr int kProfiles = 100, kSections = 20;  // times of transfer_profiles.csv and transfer_section.csv
+
+// At about so many times, evenly, and at all marks.
+void at_times(const Cycle& cycle, int times, const std::function<void(const Instant&)>& act) {
+  const auto& record = cycle.record;
+  const double every = (record.back().time - record.front().time) / times;
+  double next = record.front().time;
+  for (const auto& i : record) {
+    if (i.time < next - 1e-9 && i.mark.empty()) continue;
+    while (next <= i.time + 1e-9) next += every;
+    act(i);
+  }
+}
 
 // Mean of the two cells that have a part `from_face` of the mass between them and their faces.
 template <class Of>
@@ -120,18 +133,41 @@ files::CsvTable hotpress_table(const Cycle& cycle) {
 
 files::CsvTable profiles_table(const Cycle& cycle) {
   files::CsvTable table({"time_s", "state", "depth_mm", "T_C", "M", "gas_kPa", "cure", "density_kg_m3"});
-  const auto& record = cycle.record;
-  const double every = (record.back().time - record.front().time) / kProfiles;
-  double next = record.front().time;
-  for (const auto& i : record) {
-    if (i.time < next - 1e-9 && i.mark.empty()) continue;
-    while (next <= i.time + 1e-9) next += every;
+  at_times(cycle, kProfiles, [&table](const Instant& i) {
     for (auto cell = i.cells.rbegin(); cell != i.cells.rend(); ++cell) {
       table.add_row(
           {i.time, i.mark, 1e3 * cell->depth, cell->T, cell->M, 1e-3 * cell->gas, cell->cure(), cell->density});
     }
-  }
+  });
   return table;
+}
+
+files::CsvTable section_table(const Cycle& cycle) {
+  files::CsvTable table({"time_s", "state", "x_mm", "depth_mm", "T_C", "M", "gas_kPa", "cure", "density_kg_m3"});
+  const int columns = cycle.settings.columns;
+  at_times(cycle, kSections, [&](const Instant& i) {
+    const auto& cells = i.all();
+    const std::size_t rows = cells.size() / static_cast<std::size_t>(columns);
+    for (int column = 0; column < columns; ++column) {
+      const double x = (column + .5) * cycle.length / columns;
+      for (std::size_t row = rows; row-- > 0;) {
+        const auto& c = cells[static_cast<std::size_t>(column) * rows + row];
+        table.add_row({i.time, i.mark, 1e3 * x, 1e3 * c.depth, c.T, c.M, 1e-3 * c.gas, c.cure(), c.density});
+      }
+    }
+  });
+  return table;
+}
+
+void write_hotpress_tables(const Cycle& cycle, const std::filesystem::path& folder) {
+  hotpress_table(cycle).write(folder / "hotpress.csv");
+  profiles_table(cycle).write(folder / "transfer_profiles.csv");
+  const auto section = folder / "transfer_section.csv";
+  if (cycle.settings.columns > 1) {
+    section_table(cycle).write(section);
+  } else {
+    std::filesystem::remove(section);
+  }
 }
 
 Json to_json(const hotpress::Band& result) {

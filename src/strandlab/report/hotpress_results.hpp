@@ -1,6 +1,7 @@
 // Result files of the hot press.
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -17,6 +18,12 @@ files::CsvTable hotpress_table(const hotpress::Cycle& cycle);
 
 // transfer_profiles.csv: through the thickness at about a hundred times and at the ends of closing, hold and opening.
 files::CsvTable profiles_table(const hotpress::Cycle& cycle);
+
+// transfer_section.csv: all cells of a section of several columns, at about twenty times and at those ends.
+files::CsvTable section_table(const hotpress::Cycle& cycle);
+
+// Writes these tables into a folder; transfer_section.csv where there are several columns, else none is left there.
+void write_hotpress_tables(const hotpress::Cycle& cycle, const std::filesystem::path& folder);
 
 // What run.json has under `hotpress`; null for what the cycle does not reach.
 nlohmann::json to_json(const hotpress::Band& band);

@@ -53,8 +53,8 @@ std::vector<std::string> results_of(cases::Step step) {
     names.insert(names.end(), more.begin(), more.end());
   };
   if (step == cases::Step::kPress)
-    add({"hotpress.csv", "transfer_profiles.csv", "density_map.csv", "horizontal_density.csv", "checkpoint.h5",
-         "checkpoint.previous.h5", "panels", "frames", "paraview", "pictures"});
+    add({"hotpress.csv", "transfer_profiles.csv", "transfer_section.csv", "density_map.csv", "horizontal_density.csv",
+         "checkpoint.h5", "checkpoint.previous.h5", "panels", "frames", "paraview", "pictures"});
   if (step == cases::Step::kTest) add({"abd.csv", "plots", "glue_lines"});
   return names;
 }

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kFiles{"case.toml", "hotpress.csv", "transfer_profiles.csv", "run.json"};
+constexpr std::array kFiles{"case.toml", "hotpress.csv", "transfer_profiles.csv", "transfer_section.csv", "run.json"};
 
 // Results of `strandlab run` are no hot press of ours to replace: their run.json knows of panels.
 void refuse_folder(const fs::path& folder, bool force) {
@@ -59,8 +59,7 @@ void write(const HotPressed& pressed, cases::Case c, const fs::path& folder) {
   fs::remove(folder / "run.json");  // written last again: a kill in between leaves no record beside other results
   c.hotpress.given = true;          // the file shows all keys that were used
   files::write_atomically(folder / "case.toml", cases::resolved_text(c));
-  report::hotpress_table(pressed.band.cycle).write(folder / "hotpress.csv");
-  report::profiles_table(pressed.band.cycle).write(folder / "transfer_profiles.csv");
+  report::write_hotpress_tables(pressed.band.cycle, folder);
   const nlohmann::json record{{"strandlab", version()},
                               {"git", git_commit()},
                               {"hotpress", report::to_json(pressed.band)},

@@ -37,6 +37,7 @@ hotpress::StrandPress strand_press(const Formed& formed, const hotpress::Setting
   how.rate = settings.rate;
   how.softening = settings.softening;
   how.cells = settings.cells;
+  how.columns = settings.columns;
   for (const auto& strand : formed.panel.strands) how.resin.push_back(cases::carried_resin(c, strand.kind));
   how.curing = c.test.curing;
   how.before_step = [&observer] { stop_if_cancelled(observer); };
@@ -101,7 +102,7 @@ class HotPress {
       return hotpress::StrandMechanics::Resin{cure, transfer::bond_strength(resin, cure)};
     };
     std::vector<hotpress::StrandMechanics::Reading> list;
-    for (const auto& cell : now.cells) {
+    for (const auto& cell : now.all()) {
       list.push_back({cell.T, cell.M, 1e-3 * cell.gas, of(settings_.resin_face, cell.cure_face),
                       of(settings_.resin_core, cell.cure_core), cell.face});
     }

@@ -110,8 +110,7 @@ void write_what_follows(Journey& journey, const std::vector<press::Record>& reco
 // What a hot press's cycle says, beside what its panel does.
 void write_cycle(Journey& journey, const hotpress::Band& band) {
   auto& folder = journey.folder;
-  report::hotpress_table(band.cycle).write(folder.file("hotpress.csv"));
-  report::profiles_table(band.cycle).write(folder.file("transfer_profiles.csv"));
+  report::write_hotpress_tables(band.cycle, folder.path());
   folder.record()["hotpress"] = report::to_json(band);
   for (const auto& line : report::summary(band)) journey.log.say(line);
 }

@@ -138,6 +138,7 @@ void Solver::visit(Numbers& numbers) {
   for (auto* amounts : {&start_, &received_, &error_, &worst_error_}) {
     for (auto& amount : *amounts) numbers(amount);
   }
+  if (grid_.columns > 1) numbers(grid_.dry_mass);
 }
 
 void Solver::step(double seconds, const ConditionsAt& conditions) {

@@ -11,6 +11,7 @@
 #include "support/near.hpp"
 #include "support/report.hpp"
 #include "support/strands.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace strandlab::hotpress {
 namespace {
@@ -279,6 +280,7 @@ const std::vector<std::string> kShort{"close to 60 % in 4 s", "hold until 8 s", 
 PressedMat mat_of(const wood::Material& wood) {
   PressedMat mat;
   mat.thickness = 1e-3 * kRows * kRow;
+  mat.length = 1e-3 * kWidth;
   mat.layers = {{mat.thickness * wood.density_kg_m3, wood}};
   return mat;
 }
@@ -294,20 +296,25 @@ struct Whole {
   std::vector<Stop> stops;
 };
 
-Whole whole(int threads, double step, const Stop* from = nullptr, const std::vector<std::string>& schedule = kShort,
-            const std::optional<Log>& log = {}) {
+wood::Material crushing_wood() {
   auto wood = wood::library().front();
   wood.law = wood::Law::kCrushing;
-  const auto panel = stack(wood);
+  return wood;
+}
+
+Whole pressed(const Panel<2>& panel, int threads, double step, const Stop* from,
+              const std::vector<std::string>& schedule, const std::optional<Log>& log, int columns) {
   auto how = slow_press(panel, threads);
   how.speed_m_s = 16;
+  how.columns = columns;
   StrandMechanics strands = from ? StrandMechanics(from->checkpoint, how) : StrandMechanics(panel, how);
   Whole all;
   Watch watch;
   std::size_t exchanges = 0;
   std::vector<StrandMechanics::Reading> cells;
   watch.step = [&](const Instant& now, const std::function<std::vector<double>()>& state) {
-    cells.assign(12, reading(.1 * std::max(0., now.time - 2)));  // as if resin set while the press closes
+    cells.assign(12 * static_cast<std::size_t>(columns),
+                 reading(.1 * std::max(0., now.time - 2)));  // as if resin set while the press closes
     if (strands.records().size() == exchanges) return;
     exchanges = strands.records().size();
     strands.meet(cells);
@@ -315,10 +322,15 @@ Whole whole(int threads, double step, const Stop* from = nullptr, const std::vec
   };
   auto settings = test::settings_of(Mechanics::kStrands, 6, step, schedule);
   settings.log = log;
-  all.cycle = press_hot(settings, mat_of(wood), strands, watch, from ? from->state : std::vector<double>());
+  settings.columns = columns;
+  all.cycle = press_hot(settings, mat_of(crushing_wood()), strands, watch, from ? from->state : std::vector<double>());
   all.panel = strands.panel(cells);
   all.records = strands.records();
   return all;
+}
+Whole whole(int threads, double step, const Stop* from = nullptr, const std::vector<std::string>& schedule = kShort,
+            const std::optional<Log>& log = {}) {
+  return pressed(stack(crushing_wood()), threads, step, from, schedule, log, 1);
 }
 
 void expect_same(const Whole& a, const Whole& b) {
@@ -328,9 +340,9 @@ void expect_same(const Whole& a, const Whole& b) {
     EXPECT_EQ(x.time, y.time) << i;
     EXPECT_EQ(x.pressure, y.pressure) << i;
     EXPECT_EQ(x.mark, y.mark) << i;
-    for (std::size_t c = 0; c < x.cells.size(); ++c) {
-      EXPECT_EQ(x.cells[c].T, y.cells[c].T) << i << " " << c;
-      EXPECT_EQ(x.cells[c].density, y.cells[c].density) << i << " " << c;
+    for (std::size_t c = 0; c < x.all().size(); ++c) {
+      EXPECT_EQ(x.all()[c].T, y.all()[c].T) << i << " " << c;
+      EXPECT_EQ(x.all()[c].density, y.all()[c].density) << i << " " << c;
     }
   }
   ASSERT_EQ(a.records.size(), b.records.size());
@@ -434,6 +446,94 @@ TEST(HotCycle, FollowsALogUntilThePressIsOpen) {
          opened.thickness / undisturbed().cycle.record.back().thickness, between(.999, 1.001));
   EXPECT_NEAR(opened.gap, 1.2 * mat, 1e-9);
   EXPECT_EQ(opened.pressure, 0);
+}
+
+// ---- Several columns along the mat ----------------------------------------------------------------------------------
+
+Whole strands_in_columns(const Panel<2>& panel, int columns, int threads = 1, const Stop* from = nullptr) {
+  return pressed(panel, threads, .25, from, kShort, {}, columns);
+}
+
+// Rows that fill the mat are the same in every column.
+TEST(HotColumnsOfStrands, OfEvenRowsAreOne) {
+  const auto three = strands_in_columns(stack(crushing_wood()), 3);
+  double T = 0, density = 0;
+  ASSERT_EQ(three.cycle.record.size(), undisturbed().cycle.record.size());
+  for (std::size_t i = 0; i < three.cycle.record.size(); ++i) {
+    const auto &a = undisturbed().cycle.record[i], &b = three.cycle.record[i];
+    ASSERT_EQ(b.section.size(), 36U);
+    for (std::size_t c = 0; c < b.section.size(); ++c) {
+      T = std::max(T, std::abs(a.cells[c % 12].T - b.section[c].T));
+      density = std::max(density, std::abs(a.cells[c % 12].density / b.section[c].density - 1));
+    }
+  }
+  report("three columns of even rows, temperature against one", T, below(1e-6), "K");
+  report("three columns of even rows, density against one, relative", density, below(1e-7));
+}
+
+// The third row ends in the middle of the mat (of three columns: of the middle one), at its left or its right.
+Panel<2> with_a_short_row(bool left) {
+  auto panel = stack(crushing_wood());
+  auto& strand = panel.strands[2];
+  const double from = left ? 0 : .5 * kWidth;
+  strand = strand_between<2>(strand.material, Vec<2>(from, 2 * kRow), Vec<2>(from + .5 * kWidth, 3 * kRow), {6, 6});
+  strand.row = 2;
+  return panel;
+}
+
+const Whole& uneven() {
+  static const Whole all = strands_in_columns(with_a_short_row(true), 3);
+  return all;
+}
+
+// A column's cells hold what lies in it of the mat as formed: 6, 5.5 and 5 rows; the profile that is told is the mean
+// of their mass over the mean of their thickness.
+TEST(HotColumnsOfStrands, HoldWhatLiesInThem) {
+  const auto& cycle = uneven().cycle;
+  const double mean = mat_of(crushing_wood()).layers.front().dry_mass;
+  const double rows[] = {6, 5.5, 5};
+  ASSERT_EQ(cycle.dry_mass.size(), 36U);
+  for (std::size_t c = 0; c < 36; ++c) EXPECT_NEAR(cycle.dry_mass[c], mean / 12 * rows[c / 12] / 5.5, 1e-12) << c;
+  for (const auto& i : cycle.record) {
+    double thickness = 0;
+    for (const auto& cell : i.cells) thickness += mean / 12 / cell.density;
+    EXPECT_NEAR(thickness, i.thickness, 1e-12);
+    EXPECT_EQ(i.cells[6].T, i.section[18].T);
+  }
+  const auto held = marked(cycle, "held");
+  EXPECT_GT(held.section[6].density, held.section[30].density);
+  for (const double error : cycle.worst_balance) EXPECT_LT(error, 1e-10);
+}
+
+TEST(HotColumnsOfStrands, AMatTurnedRoundTurnsItsColumns) {
+  const auto turned = strands_in_columns(with_a_short_row(false), 3);
+  double T = 0, density = 0;
+  ASSERT_EQ(turned.cycle.record.size(), uneven().cycle.record.size());
+  for (std::size_t i = 0; i < turned.cycle.record.size(); ++i) {
+    for (std::size_t c = 0; c < 36; ++c) {
+      const auto &a = uneven().cycle.record[i].section[c],
+                 &b = turned.cycle.record[i].section[12 * (2 - c / 12) + c % 12];
+      T = std::max(T, std::abs(a.T - b.T));
+      density = std::max(density, std::abs(a.density / b.density - 1));
+    }
+  }
+  report("mat turned left to right, temperature", T, below(1e-6), "K");
+  report("mat turned left to right, density, relative", density, below(1e-6));
+}
+
+TEST(HotColumnsOfStrands, ThreadsAndARestartGiveTheSameBits) {
+  expect_same(strands_in_columns(with_a_short_row(true), 3, 3), uneven());
+  ASSERT_GE(uneven().stops.size(), 2U);
+  expect_same(strands_in_columns(with_a_short_row(true), 3, 1, &uneven().stops[uneven().stops.size() / 2]), uneven());
+}
+
+TEST(HotColumnsOfStrands, NeedWoodInEachOfThem) {
+  auto panel = stack(crushing_wood());
+  panel.length_mm *= 2;
+  auto how = slow_press(panel);
+  how.columns = 4;
+  EXPECT_THAT(strandlab::test::message_of<InputError>([&] { StrandMechanics(panel, how); }),
+              testing::HasSubstr("column 3 of 4 along the mat has no wood in it: hotpress.columns must be less"));
 }
 
 }  // namespace
