@@ -142,11 +142,11 @@ void StrandMechanics::read() {
 void StrandMechanics::watch_columns(const std::vector<double>& masses) {
   const double mean = std::accumulate(masses.begin(), masses.end(), 0.) / static_cast<double>(masses.size());
   if (masses_.empty()) {
-    for (const double mass : masses) {
-      if (!(mass > 0))
+    for (std::size_t i = 0; i < masses.size(); ++i) {
+      if (!(masses[i] > 0))
         throw InputError(fmt::format("column {} of {} along the mat has no wood in it: hotpress.columns must be less",
-                                     &mass - masses.data() + 1, masses.size()));
-      masses_.push_back(mass / mean);
+                                     i + 1, masses.size()));
+      masses_.push_back(masses[i] / mean);
     }
   }
   for (std::size_t i = 0; i < masses.size(); ++i)

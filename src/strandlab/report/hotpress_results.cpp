@@ -149,10 +149,10 @@ files::CsvTable section_table(const Cycle& cycle) {
     const auto& cells = i.all();
     const std::size_t rows = cells.size() / static_cast<std::size_t>(columns);
     for (int column = 0; column < columns; ++column) {
-      const double x = (column + .5) * cycle.length / columns;
+      const double x_mm = (column + .5) * 1e3 * cycle.length / columns;
       for (std::size_t row = rows; row-- > 0;) {
         const auto& c = cells[static_cast<std::size_t>(column) * rows + row];
-        table.add_row({i.time, i.mark, 1e3 * x, 1e3 * c.depth, c.T, c.M, 1e-3 * c.gas, c.cure(), c.density});
+        table.add_row({i.time, i.mark, x_mm, 1e3 * c.depth, c.T, c.M, 1e-3 * c.gas, c.cure(), c.density});
       }
     }
   });

@@ -123,10 +123,14 @@ Solver::Solver(Constants constants, Grid grid, std::vector<CellState> start, con
     : constants_(std::move(constants)), grid_(std::move(grid)), faces_(faces_of(grid_)), state_(std::move(start)) {
   check_sizes(grid_, state_.size(), at_start);
   check_cells(grid_, state_, at_start);
+  elimination_ = std::make_unique<Elimination>(grid_);
   thickness_ = at_start.thickness;
   holds_ = values_at(constants_, grid_, state_, at_start).holds;
   start_ = content();
 }
+
+Solver::Solver(Solver&&) noexcept = default;
+Solver::~Solver() = default;
 
 void Solver::visit(Numbers& numbers) {
   for (auto& cell : state_) {
@@ -189,7 +193,7 @@ bool Solver::solve_stage(Stage& stage) const {
     const auto scales = row_scales(grid_, stage.conditions.thickness, at.holds);
     const double worst = residual.cwiseQuotient(scales).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     if (!std::isfinite(worst)) return false;
-    const auto update = solve(grid_, faces_, scaled_system(faces_, at, residual, stage.weight, scales));
+    const auto update = elimination_->solve(faces_, scaled_system(faces_, at, residual, stage.weight, scales));
     if (update.size() == 0) return false;
     add_update(stage.state, update);
     if (worst > kConverged) continue;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "strandlab/core/numbers.hpp"
@@ -54,11 +55,16 @@ using Amounts = std::array<double, 3>;  // by Row: kg water, kg air, J per m^2 o
 // Balances are checked after each step: throws RunError where one of them is off by more than 1e-6 of what there is.
 void check_balances(const Amounts& relative_errors, double time);
 
+class Elimination;
+
 class Solver {
  public:
   // Throws InputError for sizes that do not fit, masses or thicknesses that are not positive, and moisture contents
   // outside 0 to 0.5.
   Solver(Constants constants, Grid grid, std::vector<CellState> start, const Conditions& at_start);
+
+  Solver(Solver&&) noexcept;
+  ~Solver();
 
   // From time() to time() + seconds, in halves (and so on) where Newton's method does not converge. Throws RunError
   // where that does not help, or a balance is off.
@@ -89,6 +95,7 @@ class Solver {
   Constants constants_;
   Grid grid_;
   std::vector<Face> faces_;
+  std::unique_ptr<Elimination> elimination_;  // its memory, for all steps
   std::vector<CellState> state_;
   std::vector<double> thickness_;
   Eigen::VectorXd holds_;  // by 3 * cell + Row

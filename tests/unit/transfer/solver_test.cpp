@@ -61,40 +61,43 @@ TEST(Solver, SaysWhereThereIsNoSolution) {
             "heat and moisture: no solution at 0 s, not even with a step of 6.1e-05 s");
 }
 
-// Block elimination and sparse LU against a dense solution of the same system.
-TEST(Linear, ColumnAndSparseSolutions) {
-  Grid column;
-  column.rows = 5;
-  const auto faces = faces_of(column);
-  BlockSystem system;
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(15, 15);
+// Block elimination of a column, of cells in a row and of several columns, few or many, against a dense solution.
+TEST(Linear, EliminationOfAnyGridIsThatOfTheWholeMatrix) {
   const auto block = [](int seed) {
     Block b;
     for (int i = 0; i < 9; ++i) b(i / 3, i % 3) = std::sin(seed + 1.7 * i);
     return b;
   };
-  for (int i = 0; i < 5; ++i) {
-    system.diagonal.push_back(block(i) + 5 * Block::Identity());
-    dense.block<3, 3>(3 * i, 3 * i) = system.diagonal.back();
+  for (const auto& [rows, columns] : {std::pair{5, 1}, {1, 5}, {5, 3}, {3, 5}, {4, 4}}) {
+    SCOPED_TRACE(std::to_string(rows) + " rows of " + std::to_string(columns));
+    Grid grid;
+    grid.rows = rows;
+    grid.columns = columns;
+    const auto faces = faces_of(grid);
+    const int n = 3 * grid.cells();
+    BlockSystem system;
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+    for (int i = 0; i < grid.cells(); ++i) {
+      system.diagonal.push_back(block(i) + 7 * Block::Identity());
+      dense.block<3, 3>(3 * i, 3 * i) = system.diagonal.back();
+    }
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      system.a_by_b.push_back(block(100 + static_cast<int>(f)));
+      system.b_by_a.push_back(block(200 + static_cast<int>(f)));
+      dense.block<3, 3>(3 * faces[f].a, 3 * faces[f].b) = system.a_by_b.back();
+      dense.block<3, 3>(3 * faces[f].b, 3 * faces[f].a) = system.b_by_a.back();
+    }
+    system.right = Eigen::VectorXd::LinSpaced(n, -1, 2);
+    const Eigen::VectorXd exact = dense.partialPivLu().solve(system.right);
+    Elimination elimination(grid);
+    EXPECT_LT((elimination.solve(faces, system) - exact).norm(), 1e-12);
+    system.diagonal[2].setZero();
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (faces[f].a == 2) system.a_by_b[f].setZero();
+      if (faces[f].b == 2) system.b_by_a[f].setZero();
+    }
+    EXPECT_EQ(elimination.solve(faces, system).size(), 0);
   }
-  for (int i = 0; i < 4; ++i) {
-    system.a_by_b.push_back(block(10 + i));
-    system.b_by_a.push_back(block(20 + i));
-    dense.block<3, 3>(3 * i, 3 * i + 3) = system.a_by_b.back();
-    dense.block<3, 3>(3 * i + 3, 3 * i) = system.b_by_a.back();
-  }
-  system.right = Eigen::VectorXd::LinSpaced(15, -1, 2);
-  const Eigen::VectorXd exact = dense.partialPivLu().solve(system.right);
-  EXPECT_LT((solve(column, faces, system) - exact).norm(), 1e-12);
-  Grid row = column;  // the same chain of cells along the panel
-  row.rows = 1;
-  row.columns = 5;
-  EXPECT_LT((solve(row, faces_of(row), system) - exact).norm(), 1e-12);
-  system.diagonal[2].setZero();
-  system.a_by_b[2].setZero();
-  system.b_by_a[1].setZero();
-  EXPECT_EQ(solve(column, faces, system).size(), 0);
-  EXPECT_EQ(solve(row, faces_of(row), system).size(), 0);
 }
 
 TEST(Cure, BondStrengthStartsAtTheGelPoint) {

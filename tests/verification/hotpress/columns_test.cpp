@@ -16,7 +16,7 @@ const std::vector<std::string> kByPressure{"close at 3 MPa to 12 mm within 40 s"
                                            "vent 5 s", "open 5 s"};
 
 Cycle in_columns(Mechanics mechanics, int columns, const std::vector<std::string>& schedule, bool open_ends = false) {
-  auto settings = settings_of(mechanics, 10, .5, schedule);
+  auto settings = settings_of(mechanics, 5, .5, schedule);
   settings.columns = columns;
   settings.open_ends = open_ends;
   auto mat = poplar_mat();
@@ -44,7 +44,7 @@ TEST(HotColumns, EqualOnesAreOne) {
       if (!std::isnan(a.pressure)) rest = std::max(rest, std::abs(a.pressure - b.pressure) / 3e6);
       rest = std::max(rest, std::abs(a.gas_mean - b.gas_mean) / 1e5);
       for (int column = 0; column < 3; ++column) {
-        for (int row = 0; row < 20; ++row) {
+        for (int row = 0; row < 10; ++row) {
           const auto &x = a.cells[static_cast<std::size_t>(row)], &y = cell(b, three, column, row);
           T = std::max(T, std::abs(x.T - y.T));
           rest = std::max(rest, std::abs(x.density / y.density - 1));
@@ -52,8 +52,8 @@ TEST(HotColumns, EqualOnesAreOne) {
       }
     }
   }
-  report("three equal columns, temperature against one", T, below(1e-6), "K");
-  report("three equal columns, pressure, gas and density against one, relative", rest, below(1e-7));
+  report("three equal columns, temperature against one", T, below(1e-10), "K");
+  report("three equal columns, pressure, gas and density against one, relative", rest, below(1e-12));
 }
 
 // The section as the whole width of a panel of .6 m. The sink that a single column has in place of its edges is exact
@@ -70,29 +70,27 @@ TEST(HotColumns, OpenEndsAreTheEdgesOfThePanel) {
   double uneven = 0;
   for (const auto& i : wide.record) {
     for (int column = 0; column < 5; ++column)
-      for (int row = 0; row < 20; ++row)
+      for (int row = 0; row < 10; ++row)
         uneven = std::max(uneven, std::abs(cell(i, wide, column, row).T - cell(i, wide, 10 - column, row).T));
   }
-  report("temperature of its two halves", uneven, below(1e-6), "K");
+  report("temperature of its two halves", uneven, below(1.5e-10), "K");
   const auto& held = at(wide, 100);
   for (int column = 0; column < 5; ++column) {
-    const auto &outer = cell(held, wide, column, 10), &inner = cell(held, wide, column + 1, 10);
+    const auto &outer = cell(held, wide, column, 5), &inner = cell(held, wide, column + 1, 5);
     EXPECT_LT(outer.T, inner.T + 1e-9) << column;
     EXPECT_LT(outer.gas, inner.gas + 1e-3) << column;
   }
-  EXPECT_LT(cell(held, wide, 0, 10).gas, .5 * cell(held, wide, 5, 10).gas);
+  EXPECT_LT(cell(held, wide, 0, 5).gas, .5 * cell(held, wide, 5, 5).gas);
   for (const double error : wide.worst_balance) EXPECT_LT(error, 1e-10);
 }
 
-// Gas in the middle with 5, 11 and 23 columns of the open section.
-TEST(HotColumns, MoreOfThemChangeLessAndLess) {
+// Gas in the middle with 7 and 21 columns of the open section: steep towards its ends, where the coarser ones are too
+// wide, it is level in the middle.
+TEST(HotColumns, MoreOfThemChangeLittleInTheMiddle) {
   const auto gas = [](int columns) {
     return core_gas(in_columns(Mechanics::kUniform, columns, kByPosition, true)).value;
   };
-  const double coarse = gas(5), middle = gas(11), fine = gas(23);
-  report("gas in the middle, change from 5 to 11 columns over change from 11 to 23",
-         (middle - coarse) / (fine - middle), between(2., 6.));
-  report("gas in the middle, 11 columns against 23", middle / fine - 1, between(-.02, .02));
+  report("gas in the middle of an open section, 7 columns over 21", gas(7) / gas(21), between(.98, 1.02));
 }
 
 }  // namespace
