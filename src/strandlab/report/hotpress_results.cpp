@@ -221,6 +221,9 @@ Json to_json(const hotpress::Band& result) {
 std::vector<std::string> summary(const hotpress::Band& result) {
   const auto& a = result.answers;
   std::vector<std::string> lines;
+  if (const int columns = result.cycle.settings.columns; columns > 1)
+    lines.push_back(fmt::format(
+        "section              {} columns; what follows is of the middle one, densities are means", columns));
   lines.push_back(fmt::format("press time to cure   {} ({}){}", seconds(a.press_time), cure_line(a),
                               a.press_factor ? fmt::format("; {:.1f} s/mm", 1e-3 * *a.press_factor) : ""));
   lines.push_back(fmt::format(

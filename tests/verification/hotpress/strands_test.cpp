@@ -528,6 +528,22 @@ TEST(HotColumnsOfStrands, ThreadsAndARestartGiveTheSameBits) {
   expect_same(strands_in_columns(with_a_short_row(true), 3, 1, &uneven().stops[uneven().stops.size() / 2]), uneven());
 }
 
+// Linear between the middles of three columns, at 1/6, 1/2 and 5/6 of the mat, constant beyond them.
+TEST(HotColumnsOfStrands, GivePointsWhatLiesBetweenTheirMiddles) {
+  const auto panel = stack(crushing_wood());
+  auto how = slow_press(panel);
+  how.columns = 3;
+  const StrandMechanics strands(panel, how);
+  std::vector<StrandMechanics::Reading> cells(36, reading(.5));
+  for (std::size_t c = 0; c < 36; ++c) cells[c].T = 20 + 30 * static_cast<double>(c / 12);
+  for (const auto& strand : strands.panel(cells).strands) {
+    for (std::size_t p = 0; p < strand.size(); ++p) {
+      const double place = strand.points.x[p][0] / kWidth;
+      EXPECT_NEAR(strand.points.temperature[p], 20 + 90 * (std::clamp(place, 1. / 6, 5. / 6) - 1. / 6), 1e-9);
+    }
+  }
+}
+
 TEST(HotColumnsOfStrands, NeedWoodInEachOfThem) {
   auto panel = stack(crushing_wood());
   panel.length_mm *= 2;
