@@ -2,6 +2,7 @@
 add_library(strandlab_flags INTERFACE)
 target_compile_options(strandlab_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
+  -Wzero-as-null-pointer-constant -Wredundant-decls
   -fno-math-errno -ffp-contract=fast
   -fno-semantic-interposition  # position-independent, but our functions call and inline each other as in a program
   # g++ 12 warns of its own AVX-512 intrinsics under Eigen (GCC bug 105593)
@@ -12,7 +13,9 @@ target_compile_options(strandlab_flags INTERFACE
 if(STRANDLAB_SANITIZE)
   target_compile_options(strandlab_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(strandlab_flags INTERFACE -fsanitize=address,undefined)
-  # Programs with sanitizers are large, and there are many: mold links them in a tenth of the time.
+endif()
+# Tests, most of all with sanitizers, are many large programs: mold links them in a tenth of the time.
+if(STRANDLAB_TESTS OR STRANDLAB_SANITIZE)
   find_program(STRANDLAB_MOLD mold)
   if(STRANDLAB_MOLD)
     target_link_options(strandlab_flags INTERFACE -fuse-ld=mold)

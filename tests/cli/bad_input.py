@@ -9,7 +9,7 @@ import signal
 import subprocess
 import time
 
-from program import PROGRAM, SMALL_CASE, SOURCE, DONE, check, expect_bad_input, files, finish, scratch, strandlab
+from program import PROGRAM, NO_PICTURES, SMALL_CASE, SOURCE, DONE, check, expect_bad_input, files, finish, scratch, strandlab
 
 MAT = {"length_mm": 10, "layer_thickness_mm": 0.8, "layers": [{"role": "surface", "strands": [{"x0": 0, "x1": 4}, {"x0": 5, "x1": 10}]}]}
 
@@ -226,7 +226,7 @@ def names_of_any_bytes():
     folder = b"sh\xe4re"
     os.mkdir(folder)
     with open(folder + b"/f\xfcr.toml", "w", encoding="utf-8") as case:
-        case.write(SMALL_CASE)
+        case.write(SMALL_CASE + NO_PICTURES)
     result = subprocess.run([PROGRAM, b"run", folder + b"/f\xfcr.toml"], capture_output=True, timeout=300, check=False)
     check(result.returncode == DONE, f"a name that is not UTF-8: {result.stderr}")
     for output in (result.stdout, result.stderr):

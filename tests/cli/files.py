@@ -4,7 +4,7 @@ import csv
 import pathlib
 import re
 
-from program import SOURCE, DONE, SMALL_CASE, check, finish, scratch, strandlab
+from program import SOURCE, DONE, NO_PICTURES, SMALL_CASE, check, finish, scratch, strandlab
 
 # "grain_angle_mean_deg, _sd_deg, _lowest_deg" in the text stands for columns that begin alike.
 SHORTENED = {"grain_angle_": ("mean_deg", "sd_deg", "lowest_deg", "highest_deg"),
@@ -49,7 +49,7 @@ def a_state_has_one_name():
 
 if __name__ == "__main__":
     with scratch():
-        pathlib.Path("a.toml").write_text(SMALL_CASE, encoding="utf-8")
+        pathlib.Path("a.toml").write_text(SMALL_CASE + NO_PICTURES, encoding="utf-8")
         check(strandlab("run", "a.toml", "-o", "out").returncode == DONE, "run")
         densitometer = SOURCE / "tests" / "data" / "profile" / "densitometer.csv"
         profile = strandlab("profile", "out", "-o", "profile", "--measured", densitometer)

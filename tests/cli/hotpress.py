@@ -127,7 +127,7 @@ def a_cold_run_says_so():
 
 # Four rows of 4 mm, pressed strand by strand: what `strandlab run` makes of a case with [hotpress].
 def a_hot_run():
-    small = ["mat.length_mm=4", 'mat.rows=["surface", "core*2", "surface"]', "grid.cells_through_strand=2", "run.threads=1",
+    small = ["mat.length_mm=4", 'mat.rows=["surface", "core*2", "surface"]', "grid.cells_through_strand=2", "run.threads=1", "run.pictures=false",
              'hotpress.schedule=["close to 55 % in 4 s", "hold until 40 s", "vent 2 s", "open 2 s"]']
     settings = [part for s in small for part in ("--set", s)]
     done = strandlab("run", "hot.toml", "-o", "strands", *settings)

@@ -154,6 +154,13 @@ def missing_results():
         pathlib.Path("out", name).unlink()
     result = strandlab("run", "a.toml", "-o", "out")
     check(result.returncode == DONE and "made again" in result.stdout, f"pictures: {result.stdout}{result.stderr}")
+    later = strandlab("run", "a.toml", "-o", "later", "--set", "run.pictures=false")
+    check(later.returncode == DONE and not any(pathlib.Path("later", folder).exists() for folder in ("pictures", "plots")), "no pictures are asked for")
+    check("finished" in strandlab("run", "a.toml", "-o", "later", "--set", "run.pictures=false").stdout, "none are missing then")
+    check(results("later") == before, "results without pictures are the same")
+    check(strandlab("run", "a.toml", "-o", "later").returncode == DONE, "pictures later")
+    for name, data in everything.items():
+        check(pathlib.Path("later", name).read_bytes() == data, f"{name} is drawn later")
     for name, data in everything.items():
         check(pathlib.Path("out", name).exists() and pathlib.Path("out", name).read_bytes() == data, f"{name} is drawn again")
     check("finished" in strandlab("run", "a.toml", "-o", "out").stdout, "nothing is missing any more")

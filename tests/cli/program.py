@@ -27,6 +27,9 @@ compactions = [0, 0.02, 0.04]
 compliance_t_mm_per_MPa = [0, 0.0105]
 """
 
+# For runs of which no picture is looked at: they take half as long.
+NO_PICTURES = "[run]\npictures = false\n"
+
 failures = 0
 
 

@@ -7,7 +7,7 @@ import shutil
 import stat
 import subprocess
 
-from program import DONE, FAILED, PROGRAM, SMALL_CASE, check, expect_bad_input, finish, scratch, strandlab
+from program import DONE, FAILED, PROGRAM, NO_PICTURES, SMALL_CASE, check, expect_bad_input, finish, scratch, strandlab
 
 # Names are the user's: this one wants to be markup.
 HOSTILE = "</script><script>alert(1)</script><b>\"'&\U0001fab5" + "x" * 300
@@ -20,7 +20,7 @@ def data_of(page):
 
 
 def made_with_the_run_and_again():
-    pathlib.Path("a.toml").write_text(SMALL_CASE, encoding="utf-8")
+    pathlib.Path("a.toml").write_text(SMALL_CASE + NO_PICTURES, encoding="utf-8")
     result = strandlab("run", "a.toml", "-o", "out")
     check(result.returncode == DONE and "report.html" in result.stdout, f"run says where the report is: {result.stdout}{result.stderr}")
     first = pathlib.Path("out/report.html").read_bytes()
@@ -53,7 +53,7 @@ def without_frames():
 
 
 def steps_that_are_not_done():
-    pathlib.Path("b.toml").write_text(SMALL_CASE, encoding="utf-8")
+    pathlib.Path("b.toml").write_text(SMALL_CASE + NO_PICTURES, encoding="utf-8")
     check(strandlab("mat", "b.toml", "-o", "half").returncode == DONE, "mat")
     check(strandlab("report", "half").returncode == DONE, "report of a mat")
     run = data_of("half/report.html")["run"]
@@ -147,7 +147,7 @@ def several_at_once():
 
 def mat_of_another_length():
     """The page's sizes are those of the mat, also where a mat file's are not those of the case."""
-    pathlib.Path("m.toml").write_text(SMALL_CASE, encoding="utf-8")
+    pathlib.Path("m.toml").write_text(SMALL_CASE + NO_PICTURES, encoding="utf-8")
     check(strandlab("mat", "m.toml", "-o", "formed").returncode == DONE, "mat")
     mat = json.loads(pathlib.Path("formed/mat.json").read_text(encoding="utf-8"))
     mat["layers"][0]["strands"][0]["material"] = "aspen"
@@ -165,7 +165,7 @@ def mat_of_another_length():
 
 def stale_page():
     """A page never stands beside results that it does not show."""
-    pathlib.Path("s.toml").write_text(SMALL_CASE, encoding="utf-8")
+    pathlib.Path("s.toml").write_text(SMALL_CASE + NO_PICTURES, encoding="utf-8")
     page = pathlib.Path("stale/report.html")
     other = ["s.toml", "-o", "stale", "--set", "run.seed=2"]
     check(strandlab("run", "s.toml", "-o", "stale").returncode == DONE, "run with seed 1")

@@ -5,7 +5,7 @@ import pathlib
 import shutil
 import subprocess
 
-from program import DONE, SMALL_CASE, SOURCE, check, finish, scratch, strandlab
+from program import DONE, NO_PICTURES, SMALL_CASE, SOURCE, check, finish, scratch, strandlab
 from report import HOSTILE, data_of
 
 # Two rows of 4 mm, pressed hot in seconds.
@@ -69,7 +69,7 @@ def hostile_page(page):
 
 if __name__ == "__main__":
     with scratch():
-        pathlib.Path("a.toml").write_text(SMALL_CASE, encoding="utf-8")
+        pathlib.Path("a.toml").write_text(SMALL_CASE + NO_PICTURES, encoding="utf-8")
         check(strandlab("mat", "a.toml", "-o", "formed").returncode == DONE, "mat")
         # The mat of a file: its length, 5 mm, is not the case's.
         result = strandlab("run", "a.toml", "-o", "out", "--set", "mat.file=formed/mat.json", "--set", "mat.length_mm=100")

@@ -5,7 +5,7 @@ import pathlib
 import resource
 import subprocess
 
-from program import PROGRAM, SMALL_CASE, DONE, BAD_INPUT, FAILED, check, expect_bad_input, finish, scratch, strandlab
+from program import PROGRAM, NO_PICTURES, SMALL_CASE, DONE, BAD_INPUT, FAILED, check, expect_bad_input, finish, scratch, strandlab
 
 MB = 1 << 20
 
@@ -113,7 +113,7 @@ def deep_json():
 
 
 with scratch():
-    pathlib.Path("small.toml").write_text(SMALL_CASE, encoding="utf-8")
+    pathlib.Path("small.toml").write_text(SMALL_CASE + NO_PICTURES, encoding="utf-8")
     check(strandlab("run", "small.toml", "-o", "whole").returncode == DONE, "run")
     lost_consoles()
     closed_terminal()

@@ -86,6 +86,7 @@ struct Case {
   int threads = 0;                            // 0: all cores
   std::uint64_t seed = 1;
   double checkpoint_interval_s = 30;
+  bool pictures = true;
   CasePlaces places;
 };
 

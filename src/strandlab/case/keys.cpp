@@ -267,7 +267,7 @@ void add_run(Table& t) {
     set(c, name, value);
     c.test.curing.coverage.seed = c.seed;
   };
-  t.at("run.threads").changes_results = t.at("run.checkpoint_interval_s").changes_results = false;
+  for (const char* key : {"run.threads", "run.checkpoint_interval_s", "run.pictures"}) t.at(key).changes_results = false;
 }
 
 // A text as TOML. A file name that is not UTF-8 is written with its bytes spelt out: TOML has no other bytes.

@@ -253,12 +253,17 @@ std::vector<std::string> RunFolder::missing(cases::Step step, const cases::Case&
   auto names = tables_of(step);
   if (step == cases::Step::kPress) {
     for (const double compaction : c.schedule.compactions) {
-      for (const auto& file :
-           {panel_file(compaction), picture_file("grain_angle", compaction), picture_file("density", compaction)})
-        names.push_back(file.lexically_relative(folder_).string());
+      names.push_back(panel_file(compaction).lexically_relative(folder_).string());
+      if (!c.pictures) continue;
+      for (const char* what : {"grain_angle", "density"})
+        names.push_back(picture_file(what, compaction).lexically_relative(folder_).string());
     }
   }
-  for (const auto& name : plots_of(step)) names.push_back(name);
+  if (c.pictures) {
+    for (const auto& name : plots_of(step)) names.push_back(name);
+    if (step == cases::Step::kTest && !record_.at("steps").at(name_of_step(step)).contains("plots"))
+      names.emplace_back("plots");  // they were not asked for then
+  }
   std::erase_if(names, [this](const std::string& name) { return fs::exists(file(name)); });
   return names;
 }

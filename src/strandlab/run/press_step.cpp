@@ -98,6 +98,8 @@ void write_what_follows(Journey& journey, const std::vector<press::Record>& reco
   record["density_profiles"] = run::to_json(shapes.density_profiles);
   if (!records.empty()) record["findings"] = report::to_json(findings_of(journey.formed.c, records, warnings, shapes));
   write_tables(journey, shapes);
+  if (!journey.formed.c.pictures) return;
+  fs::create_directories(pictures);
   draw_pictures(journey, panels);
   std::vector<report::Picture> plots{
       {report::profile_plot(shapes.density_profiles), pictures / "density_profile.png"},
@@ -116,7 +118,7 @@ void write_cycle(Journey& journey, const hotpress::Band& band) {
 }
 
 void make_folders(const RunFolder& folder) {
-  for (const auto* name : {"panels", "frames", "paraview", "pictures"}) fs::create_directories(folder.file(name));
+  for (const auto* name : {"panels", "frames", "paraview"}) fs::create_directories(folder.file(name));
 }
 
 // Throws InputError, with the remedy, where a panel of the finished pressing is no longer there.

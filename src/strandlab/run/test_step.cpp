@@ -24,15 +24,16 @@ void write_moduli(const Journey& journey, const Tested& tested) {
   report::moduli_table(moduli_of(journey.formed, tested)).write(journey.folder.file("moduli.csv"));
 }
 
-// Modulus against glue and against compaction for each test, with the closed-form models over them, and these models'
-// numbers.
-void write_plots(Journey& journey, const std::vector<report::PanelModulus>& moduli) {
+// The numbers of the closed-form models; modulus against glue and against compaction for each test, with these models
+// over them.
+void write_theory_and_plots(Journey& journey, const std::vector<report::PanelModulus>& moduli) {
   const auto& c = journey.formed.c;
-  const auto plots = journey.folder.file("plots");
-  fs::create_directories(plots);
   const auto theory = report::theory_moduli(theory_rows(c, journey.formed.mat), moduli, c.off_axis);
   report::theory_table(theory).write(journey.folder.file("theory.csv"));
   const auto name = [&c](double compliance_t) { return cases::name_of_glue(c, compliance_t); };
+  if (!c.pictures) return;
+  const auto plots = journey.folder.file("plots");
+  fs::create_directories(plots);
   std::vector<report::Picture> pictures;
   for (const auto kind : c.test.kinds) {
     const std::string test = vtest::name(kind);
@@ -52,7 +53,7 @@ void restore_tables(Journey& journey, const Tested& tested) {
   journey.log.say(fmt::format("test: made again, as missing: {}", fmt::join(missing, ", ")));
   folder.forget(Step::kPage);
   write_moduli(journey, tested);
-  write_plots(journey, moduli_of(journey.formed, tested));
+  write_theory_and_plots(journey, moduli_of(journey.formed, tested));
   folder.save();
 }
 
@@ -132,7 +133,7 @@ Tested test_into(Journey& journey) {
   folder.record(Step::kTest)["wall_s"] = wall_s;
   refuse_if_none_is_testable(tested);
   const auto moduli = moduli_of(journey.formed, tested);
-  write_plots(journey, moduli);
+  write_theory_and_plots(journey, moduli);
   folder.record(Step::kTest)["findings"] = report::to_json(findings_of(journey.formed, tested));
   folder.set_finished(Step::kTest);
   journey.log.say(fmt::format("test: {} moduli -> {}", moduli.size(), folder.file("moduli.csv").string()));
