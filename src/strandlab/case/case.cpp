@@ -43,21 +43,6 @@ std::pair<std::string, int> parse_row(const std::string& row) {
   return {row.substr(0, star), count};
 }
 
-wood::Material find_material(const Case& c, const std::string& name) {
-  for (const auto& user : c.materials) {
-    if (user.material.name == name) return user.material;
-  }
-  for (const auto& built_in : wood::library()) {
-    if (built_in.name == name) return built_in;
-  }
-  std::vector<std::string> names;
-  for (const auto& built_in : wood::library()) names.push_back(built_in.name);
-  for (const auto& user : c.materials) names.push_back(user.material.name);
-  const auto near = nearest(name, names);
-  throw InputError(fmt::format("there is no material \"{}\"{} Materials: {}", name,
-                               near.empty() ? "." : fmt::format("; did you mean \"{}\"?", near), quoted_list(names)));
-}
-
 mat::LayupRow layup_row(const KindSettings& kind, const mat::AngleDistribution& own_angles) {
   mat::LayupRow row;
   row.kind = kind.name;
@@ -88,6 +73,21 @@ void refuse_too_short(const Case& c, const Panel<2>& panel) {
 }
 
 }  // namespace
+
+wood::Material find_material(const Case& c, const std::string& name) {
+  for (const auto& user : c.materials) {
+    if (user.material.name == name) return user.material;
+  }
+  for (const auto& built_in : wood::library()) {
+    if (built_in.name == name) return built_in;
+  }
+  std::vector<std::string> names;
+  for (const auto& built_in : wood::library()) names.push_back(built_in.name);
+  for (const auto& user : c.materials) names.push_back(user.material.name);
+  const auto near = nearest(name, names);
+  throw InputError(fmt::format("there is no material \"{}\"{} Materials: {}", name,
+                               near.empty() ? "." : fmt::format("; did you mean \"{}\"?", near), quoted_list(names)));
+}
 
 std::vector<std::string> kind_names(const Case& c) {
   std::vector<std::string> names;

@@ -119,6 +119,9 @@ mat::AngleDistribution angles(const Case& c, const KindSettings& kind);
 // The kind of each row, bottom to top. Throws InputError for a row that names no kind.
 std::vector<const KindSettings*> row_kinds(const Case& c);
 
+// A material by its name, of the case or built in. Throws InputError, with the nearest name, where there is none.
+wood::Material find_material(const Case& c, const std::string& name);
+
 // Rows of the layup with the statistics, thickness and angles of their kinds. Throws InputError for a row that names no
 // kind.
 mat::Layup layup(const Case& c);

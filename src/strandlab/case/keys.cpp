@@ -109,17 +109,17 @@ std::vector<Key> same_results(std::vector<Key> list) {
   return list;
 }
 
-// A user's material starts as its base: this key is read before the constants.
+// A user's material starts as its base: this key is read after all of the base's own, and before the constants.
 Key base_key() {
   Key key;
   key.path = "materials.*.base";
-  key.help = "built-in material whose constants hold where none is given";
-  key.choices = [](const Case&) { return library_names(); };
+  key.help = "material, built in or another of [materials], whose constants hold where none is given";
+  key.choices = material_names;
   key.get = [](const Case& c, const std::string& name) { return Value(material_named(c, name).base); };
   key.set = [](Case& c, const std::string& name, const Value& value) {
     auto& settings = material_named(c, name);
     settings.base = std::get<std::string>(value);
-    settings.material = find_named(wood::library(), settings.base, [](const wood::Material& m) { return m.name; });
+    settings.material = find_material(c, settings.base);
     settings.material.name = name;
   };
   return key;
@@ -267,7 +267,8 @@ void add_run(Table& t) {
     set(c, name, value);
     c.test.curing.coverage.seed = c.seed;
   };
-  for (const char* key : {"run.threads", "run.checkpoint_interval_s", "run.pictures"}) t.at(key).changes_results = false;
+  for (const char* key : {"run.threads", "run.checkpoint_interval_s", "run.pictures"})
+    t.at(key).changes_results = false;
 }
 
 // A text as TOML. A file name that is not UTF-8 is written with its bytes spelt out: TOML has no other bytes.

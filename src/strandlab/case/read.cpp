@@ -8,9 +8,11 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <regex>
 #include <sstream>
+#include <utility>
 
 #include "strandlab/bondline/analysis.hpp"
 #include "strandlab/case/case.hpp"
@@ -699,15 +701,42 @@ void check_case(const Case& c, const std::vector<Given>& given, const std::strin
   }
 }
 
-// The width of a plate before what depends on it. Base materials before their constants, E_L before the species whose
-// ratios it scales, those before the constants they give, materials before the kinds that name them.
-int order_of(const Given& given) {
-  if (given.path == kPlateWidth) return 0;
-  if (given.path[0] != "materials") return 4;
+// The width of a plate before what depends on it. Materials after those they build on and before the kinds that name
+// them; of each its base first, then E_L, the species whose ratios it scales, and the constants they give.
+std::pair<int, int> order_of(const Given& given, const std::map<std::string, int>& depths) {
+  if (given.path == kPlateWidth) return {-1, 0};
+  if (given.path[0] != "materials") return {std::numeric_limits<int>::max(), 0};
+  const auto found = depths.find(given.path[1]);
+  const int depth = found == depths.end() ? 0 : found->second;
   const auto& key = given.path.back();
-  if (key == "base") return 0;
-  if (key == "E_L_MPa") return 1;
-  return key == "species" ? 2 : 3;
+  if (key == "base") return {depth, 0};
+  if (key == "E_L_MPa") return {depth, 1};
+  return {depth, key == "species" ? 2 : 3};
+}
+
+// How many others of the case's materials each one builds on. Throws InputError for one that builds on itself.
+std::map<std::string, int> depths_of_materials(const std::vector<Given>& given) {
+  std::map<std::string, int> depths;
+  std::map<std::string, const Given*> bases;
+  for (const auto& g : given) {
+    if (g.path[0] != "materials") continue;
+    depths[g.path[1]] = 0;
+    if (g.path.back() == "base" && g.node->is_string()) bases[g.path[1]] = &g;  // the last one holds
+  }
+  for (auto& [name, depth] : depths) {
+    std::string chain = name;
+    for (auto at = bases.find(name); at != bases.end(); ++depth) {
+      const auto base = at->second->node->value_or(std::string());
+      chain += " on " + base;
+      if (base == name)
+        throw InputError(fmt::format("{}: materials.{}.base = \"{}\": the material builds on itself ({})",
+                                     bases.at(name)->where, name, bases.at(name)->node->value_or(std::string()),
+                                     chain));
+      if (depth > static_cast<int>(bases.size())) break;  // others build on themselves: said of them
+      at = bases.find(base);
+    }
+  }
+  return depths;
 }
 
 // A file name that counts from `folder`; an empty one stays empty.
@@ -778,8 +807,10 @@ Case case_from_sources(Case c, const std::vector<Source>& sources) {
   names.refuse();
   std::erase_if(given, [](const Given& g) { return !g.node; });
   auto ordered = given;
+  std::map<std::string, int> depths;
+  mistakes.note([&] { depths = depths_of_materials(given); });
   std::stable_sort(ordered.begin(), ordered.end(),
-                   [](const auto& a, const auto& b) { return order_of(a) < order_of(b); });
+                   [&depths](const auto& a, const auto& b) { return order_of(a, depths) < order_of(b, depths); });
   for (const auto& g : ordered) mistakes.note([&] { apply(c, g); });
   mistakes.refuse();
   choose_states(c, given, sources.front().name);

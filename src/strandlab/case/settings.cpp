@@ -165,15 +165,16 @@ std::vector<Declaration<Case>> bondline_settings() {
 }
 
 std::vector<Declaration<Case>> run_settings() {
-  return {declare("seed", "", {.lo = 0, .hi = 9e18}, "seed of the random mat", &Case::seed),
-          declare("threads", "", {.lo = 0, .hi = 1024}, "threads; 0: one per core. Results do not depend on it",
-                  &Case::threads),
-          declare("checkpoint_interval_s", "s", {.lo = 0.01, .hi = 86400},
-                  "wall time between checkpoints: what a killed run can lose", &Case::checkpoint_interval_s),
-          declare("pictures", "", kAny,
-                  "whether `strandlab run` draws pictures/ and plots/ (PNG); the page has pictures of its own. Run again "
-                  "with true to have them later",
-                  &Case::pictures)};
+  return {
+      declare("seed", "", {.lo = 0, .hi = 9e18}, "seed of the random mat", &Case::seed),
+      declare("threads", "", {.lo = 0, .hi = 1024}, "threads; 0: one per core. Results do not depend on it",
+              &Case::threads),
+      declare("checkpoint_interval_s", "s", {.lo = 0.01, .hi = 86400},
+              "wall time between checkpoints: what a killed run can lose", &Case::checkpoint_interval_s),
+      declare("pictures", "", kAny,
+              "whether `strandlab run` draws pictures/ and plots/ (PNG); the page has pictures of its own. Run again "
+              "with true to have them later",
+              &Case::pictures)};
 }
 
 std::vector<Declaration<HotPressSettings>> hot_press_settings() {

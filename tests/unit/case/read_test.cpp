@@ -171,6 +171,34 @@ TEST(CaseRead, MaterialsStartFromTheirBase) {
   EXPECT_EQ(material.density_kg_m3, 910);  // of vtc, although base comes last
 }
 
+// In whatever order they stand: a material has all that those have on which it builds.
+TEST(CaseRead, MaterialsBuildOnOthersOfTheCase) {
+  const std::string text =
+      "[materials.a_wet]\nbase = \"b_dry\"\nE_R_MPa = 400\n"
+      "[materials.b_dry]\nE_L_MPa = 13000\nspecies = \"douglas-fir\"\ndensity_kg_m3 = 480\nbase = \"c_own\"\n"
+      "[materials.c_own]\ncrushing_Y_R_MPa = 3.5\n";
+  const Case c = case_from_text(text, "panel.toml");
+  const auto wet = c.materials[0].material;
+  EXPECT_EQ(wet.name, "a_wet");
+  EXPECT_EQ(wet.E_R, 400);
+  EXPECT_EQ(wet.E_L, 13000);
+  EXPECT_EQ(wet.density_kg_m3, 480);
+  EXPECT_DOUBLE_EQ(wet.E_T, 650);  // .050 E_L of b_dry's species
+  EXPECT_EQ(wet.crushing.Y_R, 3.5);
+  const auto again = case_from_text(resolved_text(c), "resolved.toml").materials;
+  ASSERT_EQ(again.size(), 3U);
+  EXPECT_EQ(again[0].base, "b_dry");
+  EXPECT_EQ(again[0].material.E_T, wet.E_T);
+  EXPECT_EQ(
+      case_from_text(text, "panel.toml", {"materials.c_own.crushing_Y_R_MPa=4"}).materials[0].material.crushing.Y_R, 4);
+  EXPECT_EQ(refusal("[materials.a]\nbase = \"b\"\n[materials.b]\nbase = \"a\"\n"),
+            "panel.toml:2: materials.a.base = \"b\": the material builds on itself (a on b on a)");
+  EXPECT_EQ(refusal("[materials.a]\nbase = \"a\"\n"),
+            "panel.toml:2: materials.a.base = \"a\": the material builds on itself (a on a)");
+  EXPECT_EQ(refusal("[materials.x]\nbase = \"a\"\n[materials.a]\nbase = \"b\"\n[materials.b]\nbase = \"a\"\n"),
+            "panel.toml:4: materials.a.base = \"b\": the material builds on itself (a on b on a)");
+}
+
 // Wherever they stand in the file: E_L and species first, then what is given besides.
 TEST(CaseRead, MaterialsFollowFromTheirSpecies) {
   const Case c = case_from_text(

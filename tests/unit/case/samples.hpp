@@ -51,6 +51,7 @@ inline std::string other_value(const Key& key, const Case& c, const std::string&
   if (key.path == "press.compactions") return "[0.05, 0.25]";
   if (key.path == "press.densities_kg_m3") return "[500, 600]";
   if (key.path == "press.thicknesses_mm") return "[12, 8]";
+  if (key.path == "materials.*.base") return "\"vtc\"";  // the last choice is the material itself
   if (key.choices) {
     const auto names = key.choices(c);
     return to_toml(Value(names.back()) == value ? names.front() : names.back());
