@@ -2,7 +2,8 @@
 add_library(strandlab_flags INTERFACE)
 target_compile_options(strandlab_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
-  -Wzero-as-null-pointer-constant -Wredundant-decls
+  $<$<CXX_COMPILER_ID:GNU>:-Wzero-as-null-pointer-constant>  # clang 14 takes a defaulted <=> for one
+  -Wredundant-decls
   -fno-math-errno -ffp-contract=fast
   -fno-semantic-interposition  # position-independent, but our functions call and inline each other as in a program
   # g++ 12 warns of its own AVX-512 intrinsics under Eigen (GCC bug 105593)
