@@ -17,7 +17,7 @@ namespace strandlab::study {
 struct Measure {
   int state = 0;  // from 1
   std::string test;
-  int glue = 0;                                      // from 1
+  int glue = 0;  // from 1
   auto operator<=>(const Measure&) const = default;
 };
 
