@@ -19,7 +19,7 @@ struct HotPressed {
 // Throws InputError as cases::hotpress_settings(), Cancelled when the observer stops it.
 HotPressed hotpress(const cases::Case& c, Observer& observer);
 
-// The same, and leaves case.toml, hotpress.csv, transfer_profiles.csv and run.json in the folder. Throws InputError,
+// The same, and leaves case.toml, run.json and the tables of report::write_hotpress_tables() there. Throws InputError,
 // with nothing written, for a folder of other results, or of these without `force`.
 HotPressed hotpress(const cases::Case& c, const Place& place, Observer& observer);
 

@@ -13,7 +13,7 @@
 namespace strandlab::statistics {
 namespace {
 
-// Double precision all the way: half to compile, and right to some 1e-14.
+// Double precision all the way: without promotion to long double there is half as much to compile.
 using Precision = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 using StudentsT = boost::math::students_t_distribution<double, Precision>;
 using FisherF = boost::math::fisher_f_distribution<double, Precision>;

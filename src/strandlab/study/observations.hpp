@@ -17,8 +17,8 @@ namespace strandlab::study {
 struct Measure {
   int state = 0;  // from 1
   std::string test;
-  int glue = 0;  // from 1
-  auto operator<=>(const Measure&) const = default;
+  int glue = 0;                                      // from 1
+  auto operator<=>(const Measure&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 reads <=> so
 };
 
 struct Observation {

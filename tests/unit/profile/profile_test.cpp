@@ -152,6 +152,23 @@ TEST(DensityProfile, OfAMirroredMatIsMirrored) {
 TEST(DensityProfile, RefusesNoBinsAndNoThickness) {
   EXPECT_THROW(density_profile(tilted_panel<2>(), 0), InputError);
   EXPECT_THROW(density_profile(Panel<2>{}, 4), InputError);
+  EXPECT_THROW(density_profiles(tilted_panel<2>(), 4, 0), InputError);
+}
+
+// Bin by bin, wherever the columns cut the points' domains.
+TEST(DensityProfile, IsTheMeanOverColumns) {
+  const auto panel = tilted_panel<2>();
+  const auto whole = density_profile(panel, 9);
+  for (const int columns : {1, 2, 7}) {
+    std::vector<double> mean(9, 0);
+    const auto profiles = density_profiles(panel, 9, columns);
+    ASSERT_EQ(profiles.size(), static_cast<std::size_t>(columns));
+    for (const auto& profile : profiles) {
+      for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += profile.density_kg_m3[k] / columns;
+    }
+    for (std::size_t k = 0; k < mean.size(); ++k)
+      EXPECT_NEAR(mean[k], whole.density_kg_m3[k], 1e-10) << columns << " columns, bin " << k;
+  }
 }
 
 // A U-shaped profile whose numbers can be read off: 8 bins of 0.5 mm.
