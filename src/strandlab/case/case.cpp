@@ -12,6 +12,7 @@
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/nearest.hpp"
 #include "strandlab/core/text.hpp"
+#include "strandlab/mat/cut.hpp"
 #include "strandlab/wood/species.hpp"
 
 namespace strandlab::cases {
@@ -46,9 +47,10 @@ std::pair<std::string, int> parse_row(const std::string& row) {
 mat::LayupRow layup_row(const KindSettings& kind, const mat::AngleDistribution& own_angles) {
   mat::LayupRow row;
   row.kind = kind.name;
-  row.statistics = kind.statistics;
+  const bool cut = mat::are_cut(kind.statistics, own_angles);
+  row.statistics = cut ? kind.statistics : mat::in_section(kind.statistics, own_angles);
   if (kind.thickness_mm > 0) row.thickness_mm = kind.thickness_mm;
-  if (own_angles.spread_deg > 0 || own_angles.sd_deg > 0) row.angles = own_angles;
+  if (cut || own_angles.spread_deg > 0 || own_angles.sd_deg > 0) row.angles = own_angles;
   return row;
 }
 
@@ -117,6 +119,10 @@ std::vector<const KindSettings*> row_kinds(const Case& c) {
     kinds.insert(kinds.end(), static_cast<std::size_t>(row.second), &find_kind(c, row.first, text));
   }
   return kinds;
+}
+
+mat::StrandStatistics in_section(const Case& c, const KindSettings& kind) {
+  return mat::in_section(kind.statistics, angles(c, kind));
 }
 
 mat::Layup layup(const Case& c) {

@@ -119,6 +119,9 @@ mat::AngleDistribution angles(const Case& c, const KindSettings& kind);
 // The kind of each row, bottom to top. Throws InputError for a row that names no kind.
 std::vector<const KindSettings*> row_kinds(const Case& c);
 
+// Lengths of a kind's strands as a section shows them (mat/cut.hpp).
+mat::StrandStatistics in_section(const Case& c, const KindSettings& kind);
+
 // A material by its name, of the case or built in. Throws InputError, with the nearest name, where there is none.
 wood::Material find_material(const Case& c, const std::string& name);
 

@@ -10,6 +10,7 @@
 #include "strandlab/case/hotpress.hpp"
 #include "strandlab/core/error.hpp"
 #include "strandlab/core/free_memory.hpp"
+#include "strandlab/mat/cut.hpp"
 
 namespace strandlab::cases {
 namespace {
@@ -107,7 +108,7 @@ void refuse_too_large(const Case& c, const mat::Layup& layup) {
   const double spacing = thinnest / through * c.grid.cell_aspect;
   double strands = 0, particles = 0;
   for (const auto& row : layup.rows) {
-    const auto& s = row.statistics;
+    const auto s = mat::in_section(row.statistics, row.angles.value_or(mat::AngleDistribution{}));
     const double cycle = s.length_mm + s.gap_mm;
     const bool filled = !(s.length_mm > 0);
     const double thickness = row.thickness_mm.value_or(layup.layer_thickness_mm);

@@ -94,7 +94,6 @@ class Table {
     keys_.insert(place_of(path) + 1, more.begin(), more.end());
   }
   Key& at(const std::string& path) { return *place_of(path); }
-  bool has(const std::string& path) { return place_of(path) != keys_.end(); }
   std::vector<Key> take() { return std::move(keys_); }
 
  private:
@@ -137,6 +136,7 @@ Key species_key() {
     for (const auto& s : wood::species()) names.push_back(s.name);
     return names;
   };
+  key.advice = wood::stand_in_for;
   key.get = [](const Case& c, const std::string& name) { return Value(material_named(c, name).species); };
   key.set = [](Case& c, const std::string& name, const Value& value) {
     auto& settings = material_named(c, name);
@@ -202,10 +202,7 @@ void add_mat_and_kinds(Table& t) {
                                               "kinds.*", mat::size_options(), [](auto&c, const std::string&n) -> auto& {
                                                 return kind_named(c, n).sizes;
                                               }))) {
-    if (t.has(key.path))
-      join(t.at(key.path), key);
-    else
-      t.insert_after("kinds.*.gap_sd_mm", {key});
+    join(t.at(key.path), key);
   }
   t.at("kinds.*.angle_kappa").dimensions = 3;
   t.insert_after("kinds.*.angle_spread_deg", {angle_sd_key()});

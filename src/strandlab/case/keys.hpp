@@ -18,6 +18,7 @@ struct Key {
   Range range;
   std::string help;
   std::function<std::vector<std::string>(const Case&)> choices;  // of texts; empty: any text
+  std::function<std::string(const std::string&)> advice;         // ends the message on a text that is none of them
   bool names_file = false;                                       // a text: relative ones count from the case file
   int dimensions = 0;           // 2 or 3: a key of the cases of sections or of plates only; 0: of both
   bool changes_results = true;  // false: runs that differ in this key alone give the same bits

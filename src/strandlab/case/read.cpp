@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -239,17 +240,32 @@ std::string nearest_key(const Path& path, const std::vector<std::string>& same_s
   throw InputError(fmt::format("{}: unknown key {}{} {}", given.where, name, nearest_key(given.path, here), known));
 }
 
-// The mistakes of a case, told together.
+// A part of a case that rules between keys look at: "kinds.core", "materials.fir", "press".
+std::string part_of(const Path& path) {
+  const bool named = std::any_of(sections().begin(), sections().end(),
+                                 [&](const Section& s) { return !path.empty() && s.path == path[0] + ".*"; });
+  return named && path.size() > 1 ? path[0] + "." + path[1] : path[0];
+}
+
+// The mistakes of a case, told together. Rules between keys are not held against parts in which one was found: they
+// would speak of values that nobody gave.
 class Mistakes {
  public:
-  // Notes what `act` throws as InputError.
+  // Notes what `act` throws as InputError, a mistake in `part`.
   template <class Act>
-  void note(const Act& act) {
+  void note(const std::string& part, const Act& act) {
     try {
       act();
     } catch (const InputError& e) {
       messages_.emplace_back(e.what());
+      spoilt_.insert(part);
     }
+  }
+  bool none_in(const std::string& part) const { return spoilt_.count(part) == 0; }
+  // Of all parts that begin so: "kinds.".
+  bool none_below(const std::string& parts) const {
+    const auto first = spoilt_.lower_bound(parts);
+    return first == spoilt_.end() || first->rfind(parts, 0) != 0;
   }
   // Throws InputError for one, InputErrors for several.
   void refuse() const {
@@ -266,6 +282,7 @@ class Mistakes {
 
  private:
   std::vector<std::string> messages_;
+  std::set<std::string> spoilt_;
 };
 
 void flatten(const Source& source, const toml::table& table, const Path& prefix, std::vector<Given>& out,
@@ -278,9 +295,9 @@ void flatten(const Source& source, const toml::table& table, const Path& prefix,
     if (find_key(given.path) != nullptr) {
       out.push_back(std::move(given));
     } else if (!section) {
-      mistakes.note([&] { throw_unknown_key(given); });
+      mistakes.note(part_of(given.path), [&] { throw_unknown_key(given); });
     } else if (!is_section(given.path)) {
-      mistakes.note([&] { throw_unknown_section(given); });
+      mistakes.note(part_of(given.path), [&] { throw_unknown_section(given); });
     } else {
       out.push_back({given.path, nullptr, given.where, given.in_file});
       flatten(source, *section, given.path, out, mistakes);
@@ -421,9 +438,10 @@ void check_value(const Key& key, const Case& c, const Value& value, const toml::
   const auto known = key.choices(c);
   for (std::size_t i = 0; i < texts.size(); ++i) {
     if (std::find(known.begin(), known.end(), texts[i]) != known.end()) continue;
+    const auto advice = key.advice ? key.advice(texts[i]) : std::string();
     throw InputError(fmt::format("{}: {}\"{}\" is not {}{}", opening,
                                  node.is_array() ? fmt::format("entry {}, ", i + 1) : std::string(),
-                                 shortened(texts[i]), rule, did_you_mean(texts[i], known)));
+                                 shortened(texts[i]), rule, advice.empty() ? did_you_mean(texts[i], known) : advice));
   }
 }
 
@@ -501,6 +519,11 @@ template <class Item, class NameOf>
 void insert_by_name(std::vector<Item>& items, std::size_t first, const Item& item, NameOf name_of_item) {
   const auto later = [&](const Item& other) { return name_of_item(other) > name_of_item(item); };
   items.insert(std::find_if(items.begin() + static_cast<std::ptrdiff_t>(first), items.end(), later), item);
+}
+
+bool has_instance(const Case& c, const Path& path) {
+  const auto there = instances(c, path[0] + ".*");
+  return path[0] == "hotpress" || std::find(there.begin(), there.end(), path[1]) != there.end();
 }
 
 // [kinds.NAME], [materials.NAME], [resins.NAME] and [hotpress] come to be when they are first mentioned.
@@ -587,6 +610,14 @@ void check_kind(const Case& c, const KindSettings& kind, const std::vector<Given
                      "{}, {} and {}",
                      s.length_sd_mm, s.gap_mm, s.gap_sd_mm));
   }
+  if (s.width_mm > 0 && s.length_mm == 0)
+    fail("width_mm", fmt::format("= {} mm: length_mm = 0 means that one strand fills the row, which has no width; "
+                                 "leave it out or give the length of whole strands",
+                                 s.width_mm));
+  if (s.width_sd_mm > s.width_mm)
+    fail("width_sd_mm",
+         fmt::format("= {} mm: must not exceed the mean, width_mm = {}: the truncated normal distribution degenerates",
+                     s.width_sd_mm, s.width_mm));
   if (s.length_sd_mm > s.length_mm) {
     fail("length_sd_mm",
          fmt::format("= {} mm: must not exceed the mean, length_mm = {}: the truncated normal distribution "
@@ -647,7 +678,8 @@ void refuse_unused_kinds(const Case& c, const mat::Layup& layup, const std::vect
 
 void check_materials(const Case& c, const std::vector<Given>& given, const std::string& source, Mistakes& mistakes) {
   const auto check = [&](const wood::Material& material, const Path& path, const std::string& opening) {
-    mistakes.note([&] {
+    if (!mistakes.none_in(part_of(path))) return;
+    mistakes.note(part_of(path), [&] {
       try {
         wood::validate(material);
       } catch (const InputError& e) {
@@ -659,46 +691,59 @@ void check_materials(const Case& c, const std::vector<Given>& given, const std::
     const auto& name = settings.material.name;
     check(settings.material, {"materials", name, ""}, fmt::format("[materials.{}]", shortened(name)));
   }
-  mistakes.refuse();  // of a kind's wood only what its law makes of a material that is right
+  if (!mistakes.none_below("materials."))
+    return;  // of a kind's wood only what its law makes of a material that is right
   for (const auto& kind : strand_kinds(c)) {
     check(kind.material, {"kinds", kind.name, "law"},
           fmt::format("[kinds.{}] with law = \"{}\"", shortened(kind.name), wood::name(kind.material.law)));
   }
 }
 
-void check_case(const Case& c, const std::vector<Given>& given, const std::string& source) {
-  Mistakes mistakes;
-  for (const auto& kind : c.kinds) mistakes.note([&] { check_kind(c, kind, given, source); });
-  check_materials(c, given, source, mistakes);
-  mistakes.note([&] {
-    check_hotpress(c, [&](const std::string& key, const std::string& message) {
-      throw InputError(fmt::format("{}: {}: {}", where_of(given, source, split(key)), key, message));
-    });
-  });
-  mistakes.note([&] {
-    try {
-      glue::check(c.test.curing.coverage);
-    } catch (const InputError& e) {
-      throw InputError(fmt::format("{}: glue.coverage: {}", where_of(given, source, {"glue", "coverage"}), e.what()));
-    }
-  });
+// Rows, and what their kinds make of them.
+void check_mat(const Case& c, const std::vector<Given>& given, const std::string& source, Mistakes& mistakes) {
   mat::Layup rows;
-  mistakes.note([&] {
+  mistakes.note("mat", [&] {
     try {
       rows = layup(c);
     } catch (const InputError& e) {
       throw InputError(fmt::format("{}: mat.rows: {}", where_of(given, source, {"mat", "rows"}), e.what()));
     }
   });
-  mistakes.refuse();
-  if (!c.mat_file.empty()) return;
-  refuse_unused_kinds(c, rows, given, source);
-  if (!is_plate(c)) return;
-  try {
-    mat::check(plate_layup(c));
-  } catch (const InputError& e) {
-    throw InputError(fmt::format("{}: {}", where_of(given, source, kPlateWidth), e.what()));
+  if (!c.mat_file.empty() || !mistakes.none_in("mat")) return;
+  mistakes.note("kinds.", [&] { refuse_unused_kinds(c, rows, given, source); });
+  if (!is_plate(c) || !mistakes.none_below("kinds.")) return;
+  mistakes.note("mat", [&] {
+    try {
+      mat::check(plate_layup(c));
+    } catch (const InputError& e) {
+      throw InputError(fmt::format("{}: {}", where_of(given, source, kPlateWidth), e.what()));
+    }
+  });
+}
+
+void check_case(const Case& c, const std::vector<Given>& given, const std::string& source, Mistakes& mistakes) {
+  for (const auto& kind : c.kinds) {
+    const auto part = "kinds." + kind.name;
+    if (mistakes.none_in(part)) mistakes.note(part, [&] { check_kind(c, kind, given, source); });
   }
+  check_materials(c, given, source, mistakes);
+  if (mistakes.none_in("hotpress") && mistakes.none_below("resins.")) {
+    mistakes.note("hotpress", [&] {
+      check_hotpress(c, [&](const std::string& key, const std::string& message) {
+        throw InputError(fmt::format("{}: {}: {}", where_of(given, source, split(key)), key, message));
+      });
+    });
+  }
+  if (mistakes.none_in("glue")) {
+    mistakes.note("glue", [&] {
+      try {
+        glue::check(c.test.curing.coverage);
+      } catch (const InputError& e) {
+        throw InputError(fmt::format("{}: glue.coverage: {}", where_of(given, source, {"glue", "coverage"}), e.what()));
+      }
+    });
+  }
+  if (mistakes.none_in("mat")) check_mat(c, given, source, mistakes);
 }
 
 // The width of a plate before what depends on it. Materials after those they build on and before the kinds that name
@@ -782,9 +827,8 @@ void use_bondline(Case& c, const fs::path& file) {
   given = measured;
 }
 
-Case case_from_sources(Case c, const std::vector<Source>& sources) {
+Case case_from_sources(Case c, const std::vector<Source>& sources, Mistakes& mistakes) {
   std::vector<Given> given;
-  Mistakes mistakes;
   fs::path mat_folder, bondline_folder, log_folder;
   for (const auto& source : sources) {
     const auto first = given.size();
@@ -800,26 +844,34 @@ Case case_from_sources(Case c, const std::vector<Source>& sources) {
       (is_mat ? c.places.mat_file : c.places.bondline_file) = opening_of_file(given[i], *key);
     }
   }
-  Mistakes names;  // without its section a key has no place
+  std::set<std::string> nameless;  // without its section a key has no place
   for (const auto& g : given) {
-    if (!g.node) names.note([&] { make_instance(c, g); });
+    if (g.node) continue;
+    const auto part = part_of(g.path);
+    if (mistakes.none_in(part)) mistakes.note(part, [&] { make_instance(c, g); });
+    if (g.path.size() == 2 && !has_instance(c, g.path)) nameless.insert(part);
   }
-  names.refuse();
-  std::erase_if(given, [](const Given& g) { return !g.node; });
+  std::erase_if(given, [&](const Given& g) { return !g.node || nameless.count(part_of(g.path)) > 0; });
   auto ordered = given;
   std::map<std::string, int> depths;
-  mistakes.note([&] { depths = depths_of_materials(given); });
+  mistakes.note("materials.", [&] { depths = depths_of_materials(given); });
   std::stable_sort(ordered.begin(), ordered.end(),
                    [&depths](const auto& a, const auto& b) { return order_of(a, depths) < order_of(b, depths); });
-  for (const auto& g : ordered) mistakes.note([&] { apply(c, g); });
-  mistakes.refuse();
-  choose_states(c, given, sources.front().name);
+  for (const auto& g : ordered) mistakes.note(part_of(g.path), [&] { apply(c, g); });
+  mistakes.note("press", [&] { choose_states(c, given, sources.front().name); });
   make_absolute(c.mat_file, mat_folder);
   make_absolute(c.bondline_file, bondline_folder);
   make_absolute(c.hotpress.log_file, log_folder);
   c.places.rows = where_of(given, sources.front().name, {"mat", "rows"}) + ": mat.rows";
-  check_case(c, given, sources.front().name);
+  check_case(c, given, sources.front().name, mistakes);
   return c;
+}
+
+Case case_from_sources(Case c, const std::vector<Source>& sources) {
+  Mistakes mistakes;
+  auto result = case_from_sources(std::move(c), sources, mistakes);
+  mistakes.refuse();
+  return result;
 }
 
 std::vector<Source> with_overrides(Source file, const std::vector<std::string>& overrides) {
@@ -848,24 +900,29 @@ std::string read_text(const fs::path& file) {
   return text.str();
 }
 
-Case case_of_file(const fs::path& file, const std::vector<std::string>& overrides) {
+Case case_of_file(const fs::path& file, const std::vector<std::string>& overrides, Mistakes& mistakes) {
   Source source{parse_toml(read_text(file), file.string()), file.string(), true, true,
                 fs::absolute(file).parent_path()};
   Case c;
   c.name = file.stem().string();
-  return case_from_sources(std::move(c), with_overrides(std::move(source), overrides));
+  return case_from_sources(std::move(c), with_overrides(std::move(source), overrides), mistakes);
 }
 
 }  // namespace
 
 Case read_case(const fs::path& file, const std::vector<std::string>& overrides) {
-  auto c = case_of_file(file, overrides);
-  use_bondline(c, file);
+  Mistakes mistakes;
+  auto c = case_of_file(file, overrides, mistakes);
+  if (mistakes.none_in("glue")) mistakes.note("glue", [&] { use_bondline(c, file); });
+  mistakes.refuse();
   return c;
 }
 
 Case read_written_case(const fs::path& file) {
-  return case_of_file(file, {});
+  Mistakes mistakes;
+  auto c = case_of_file(file, {}, mistakes);
+  mistakes.refuse();
+  return c;
 }
 
 std::string name_of_glue(const Case& c, double compliance_t_mm_per_MPa) {

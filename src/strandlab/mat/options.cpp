@@ -23,11 +23,15 @@ std::vector<Declaration<StrandStatistics>> statistics_options() {
   using S = StrandStatistics;
   const Range size_or_zero{.lo = kSmallestSize_mm, .hi = kLargestSize_mm, .zero = true};
   return {declare("length_mm", "mm", size_or_zero,
-                  "mean length of a strand in the section; 0 with gap 0: one strand fills the row; 3D: of the whole "
-                  "strand, 150 "
-                  "with sd 0 unless given",
+                  "mean length of a strand: in the section, or of the whole strand when width_mm is given; 0 with gap "
+                  "0: one strand fills the row; 3D: of the whole strand, 150 with sd 0 unless given",
                   &S::length_mm),
           declare("length_sd_mm", "mm", kNotNegative, "its standard deviation, at most the mean", &S::length_sd_mm),
+          declare("width_mm", "mm", size_or_zero,
+                  "mean width of a strand, of which a section then shows what its angle lets it, the width of one that "
+                  "lies across; 0: length_mm is what the section shows; 3D: 25 unless given",
+                  &S::width_mm),
+          declare("width_sd_mm", "mm", kNotNegative, "its standard deviation, at most the mean", &S::width_sd_mm),
           declare("gap_mm", "mm", {.lo = 0, .hi = kLargestSize_mm}, "mean gap between strands of a row", &S::gap_mm),
           declare("gap_sd_mm", "mm", kNotNegative, "its standard deviation, at most the mean", &S::gap_sd_mm)};
 }

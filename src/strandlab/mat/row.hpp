@@ -16,6 +16,7 @@ inline constexpr double kTicksPerMm = 1e6;
 
 struct RowStrand {
   Ticks x0, x1;
+  double angle_deg = 0;  // of strands that are cut (cut.hpp)
 };
 
 // The row's strands from the cycle (a strand and the gap after it) that covers x = 0 up to and including the first
@@ -25,6 +26,8 @@ struct RowStrand {
 // length) and the point lies uniformly in it (Cox, Renewal Theory, 1962, ch. 5). It is drawn so by rejection: a cycle
 // of length S is kept with probability S/S_max. A strand then covers x = 0 with probability <L>/(<L> + <G>), and its
 // length is length-biased.
-std::vector<RowStrand> stationary_row(const StrandStatistics& statistics, Ticks window, RandomStream& random);
+// Angles only matter to strands with a width.
+std::vector<RowStrand> stationary_row(const StrandStatistics& statistics, Ticks window, RandomStream& random,
+                                      const AngleDistribution& angles = {});
 
 }  // namespace strandlab::mat

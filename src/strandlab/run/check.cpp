@@ -62,7 +62,9 @@ std::string checked_text(cases::Case resolved) {
     add("from mat.file: the sizes and rows of this mat count, not mat.length_mm, mat.layer_thickness_mm, mat.rows");
   }
   if (const auto remark = remark_on_length(formed)) add(*remark);
+  for (const auto& warning : remarks_on_widths(c)) add("warning: " + warning);
   for (const auto& line : composition(cases::weigh(c, mat))) add(line);
+  if (const auto remark = remark_on_shares(c)) add(*remark);
   for (const auto& line : cases::derived_constants(c)) add(line);
   add(fmt::format("as formed: {:.1f} kg/m3", cases::density_kg_m3(c, mat, 0)));
   for (const auto& state : kept_states(formed))

@@ -30,6 +30,10 @@ std::vector<KeptState> kept_states(const Formed& formed);
 // so that moduli scatter between seeds more than those of a panel. Nothing where it is not.
 std::optional<std::string> remark_on_length(const Formed& formed);
 
+// Of each kind whose strands lie across and are longer in the section than strands are wide: that length_mm is taken
+// for their width there, and which key changes it. Nothing for a mat file.
+std::vector<std::string> remarks_on_widths(const cases::Case& c);
+
 // Refuses a mat that no glue can connect from end to end: pressed, there would be nothing to test. Throws InputError.
 void refuse_untestable(const Formed& formed);
 

@@ -170,6 +170,7 @@ std::optional<press::Checkpoint<2>> begin(Journey& journey, const io::Checkpoint
   log.open(journey.folder.file("log.txt"));
   for (const auto& warning : warnings) log.warn(warning);
   for (const auto& line : cases::derived_constants(c)) log.say(line);
+  for (const auto& warning : remarks_on_widths(c)) log.warn(warning);
   if (c.hotpress.given && !cases::presses_hot(c)) {
     log.warn(fmt::format("hotpress.mechanics = \"{}\": this pressing is cold; strandlab hotpress presses its mat hot",
                          c.hotpress.mechanics));

@@ -73,6 +73,12 @@ std::string grain(const cases::KindSettings& kind) {
   return std::abs(kind.angle_deg) == 90 ? "across the panel" : fmt::format("at {:g}°", kind.angle_deg);
 }
 
+std::string size_in_words(const mat::StrandStatistics& s) {
+  if (!(s.length_mm > 0)) return {};
+  if (!(s.width_mm > 0)) return fmt::format(", {:g} mm long in the section", s.length_mm);
+  return fmt::format(", {:g} mm long and {:g} mm wide", s.length_mm, s.width_mm);
+}
+
 // Of the kinds that rows are of.
 std::string strands_in_words(const cases::Case& c, const std::vector<std::string>& rows) {
   std::vector<std::string> parts;
@@ -80,10 +86,8 @@ std::string strands_in_words(const cases::Case& c, const std::vector<std::string
     if (std::find(rows.begin(), rows.end(), kind.name) == rows.end()) continue;
     const double thickness = kind.thickness_mm > 0 ? kind.thickness_mm : c.layer_thickness_mm;
     const auto thick = c.mat_file.empty() ? fmt::format(", {:g} mm thick", thickness) : "";
-    const auto lengths = c.mat_file.empty() && kind.statistics.length_mm > 0
-                             ? fmt::format(", {:g} mm long in the section", kind.statistics.length_mm)
-                             : "";
-    parts.push_back(fmt::format("{}: {}, grain {}{}{}", kind.name, kind.material, grain(kind), thick, lengths));
+    parts.push_back(fmt::format("{}: {}, grain {}{}{}", kind.name, kind.material, grain(kind), thick,
+                                c.mat_file.empty() ? size_in_words(kind.statistics) : ""));
   }
   return fmt::format("{}", fmt::join(parts, "; "));
 }

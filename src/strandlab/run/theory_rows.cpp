@@ -8,6 +8,7 @@
 
 #include "strandlab/core/error.hpp"
 #include "strandlab/glue/bond.hpp"
+#include "strandlab/mat/cut.hpp"
 
 namespace strandlab::run {
 namespace {
@@ -46,9 +47,9 @@ std::vector<theory::Row> theory_rows(const cases::Case& c, const mat::Mat& mat) 
     const auto layup = cases::layup(c);
     for (const auto& given : layup.rows) {
       rows.push_back(row_of_kind(kinds, given.kind));
-      rows.back().statistics = given.statistics;
-      rows.back().thickness_mm = given.thickness_mm.value_or(layup.layer_thickness_mm);
       const auto angles = given.angles.value_or(mat::AngleDistribution{});
+      rows.back().statistics = mat::in_section(given.statistics, angles);
+      rows.back().thickness_mm = given.thickness_mm.value_or(layup.layer_thickness_mm);
       rows.back().angle_spread_deg = angles.spread_deg;
       rows.back().angle_sd_deg = angles.sd_deg;
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <utility>
 
 #include "strandlab/core/error.hpp"
@@ -34,6 +35,18 @@ const Species& find_species(const std::string& name) {
   const auto near = nearest(name, names);
   throw InputError(fmt::format("there are no elastic ratios of a species \"{}\"{} Species: {}", name,
                                near.empty() ? "." : fmt::format("; did you mean \"{}\"?", near), quoted_list(names)));
+}
+
+std::string stand_in_for(const std::string& name) {
+  std::string small = name;
+  std::transform(small.begin(), small.end(), small.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  for (const char* populus : {"aspen", "poplar", "cottonwood", "populus"}) {
+    if (small.find(populus) != std::string::npos)
+      return "; the tables of the Wood Handbook have no aspen: yellow-poplar stands in for it, a light hardwood with "
+             "fine pores all through its rings too, with E_L_MPa and density_kg_m3 of your own";
+  }
+  return {};
 }
 
 Material with_ratios(Material m, const Species& s) {

@@ -21,6 +21,10 @@ const std::vector<Species>& species();
 // Throws InputError with the nearest and all known names.
 const Species& find_species(const std::string& name);
 
+// Which of the list to take for a wood that people ask for and the tables do not have, and why: ends a message; "" for
+// other names.
+std::string stand_in_for(const std::string& name);
+
 // The material with every elastic constant but E_L from the species' ratios. The measured ratios under load along the
 // stiffer direction of each pair are taken; nu_RL, nu_TL and nu_TR follow by reciprocity, nu_ij/E_i = nu_ji/E_j.
 Material with_ratios(Material material, const Species& species);

@@ -1,4 +1,6 @@
 // Case files: what is read, and the one message that answers each kind of bad input.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -299,6 +301,9 @@ TEST(CaseRead, BadInputIsAnsweredByFileLineKeyGivenAndAllowed) {
       {"[kinds.surface]\nlength_mm = 0",
        {"panel.toml:2: kinds.surface.length_mm = 0 means that one strand fills the row", "not 20, 15 and 4.95"}},
       {"[kinds.core]\nlength_mm = 0\nlength_sd_mm = 0\ngap_mm = 0", {"kinds.core.length_mm", "not 0, 0 and 1"}},
+      {"[kinds.core]\nwidth_sd_mm = 3", {"panel.toml:2", "kinds.core.width_sd_mm = 3 mm", "width_mm = 0"}},
+      {"[kinds.core]\nlength_mm = 0\nlength_sd_mm = 0\ngap_mm = 0\ngap_sd_mm = 0\nwidth_mm = 20",
+       {"panel.toml:6: kinds.core.width_mm = 20 mm", "one strand fills the row", "leave it out"}},
       {"[press]\ncompactions = [0, 1]", {"panel.toml:2", "press.compactions = [0, 1]", "less than 1"}},
       {"[press]\ncompactions = [0.2, 0.1]", {"press.compactions = [0.2, 0.1]", "increasing"}},
       {"[press]\ncompactions = [0.2, 0.2]", {"increasing"}},
@@ -335,6 +340,7 @@ TEST(CaseRead, BadInputIsAnsweredByFileLineKeyGivenAndAllowed) {
       {"[kinds.core]\nstiffness_factor = 2", {"kinds.core.stiffness_factor = 2", "greater than 0 and at most 1"}},
       {"[materials.m]\nspecies = \"douglas fir\"",
        {"panel.toml:2", "materials.m.species", "yellow-poplar", "did you mean douglas-fir?"}},
+      {"[materials.m]\nspecies = \"Quaking aspen\"", {"panel.toml:2", "have no aspen", "yellow-poplar stands in"}},
       // |nu_TR| must stay below sqrt(E_T/E_R) = .68 for the R-T block of the compliance to be positive definite.
       {"[materials.m]\nnu_TR = 0.7", {"panel.toml:2", "[materials.m]", "not positive definite", "nu_TR"}},
       {"[materials.m]\nY_R_MPa = 6", {"panel.toml:2", "[materials.m]", "not positive semi-definite", "Y_R"}},
@@ -355,9 +361,8 @@ TEST(CaseRead, BadInputIsAnsweredByFileLineKeyGivenAndAllowed) {
   }
 }
 
-// Sizes that no mat is formed of are refused where they are written, by the range that the reference shows.
-// Each mistake of a file has its line, given and allowed; keys of a section that is misspelt are not told one by one,
-// and rules between keys wait until every key is right.
+// Each mistake of a file has its line, given and allowed, rules between keys too; keys of a section that is misspelt
+// are not told one by one.
 TEST(CaseRead, AllMistakesAreToldAtOnce) {
   const std::string text =
       "[mat]\nlenght_mm = 3\nrows = 3\n[pres]\nspeed = 1\n[press]\nfriction = -1\ndensities_kg_m3 = [500]\n"
@@ -366,12 +371,13 @@ TEST(CaseRead, AllMistakesAreToldAtOnce) {
     case_from_text(text, "panel.toml", {"grid.courant=x"});
     FAIL() << "no error";
   } catch (const InputErrors& e) {
-    ASSERT_EQ(e.messages.size(), 5U) << e.what();
+    ASSERT_EQ(e.messages.size(), 6U) << e.what();
     for (const auto& [i, opening] : {std::pair{0, "panel.toml:2: unknown key mat.lenght_mm; did you mean length_mm?"},
                                      {1, "panel.toml:4: unknown section [pres]; did you mean press?"},
                                      {2, "panel.toml:3: mat.rows = 3: must be a list of texts"},
                                      {3, "panel.toml:7: press.friction = -1: must be from 0 to 10"},
-                                     {4, "--set grid.courant=x: grid.courant = \"x\": must be a number"}})
+                                     {4, "--set grid.courant=x: grid.courant = \"x\": must be a number"},
+                                     {5, "panel.toml:8: press.densities_kg_m3 and press.compactions"}})
       EXPECT_EQ(e.messages[static_cast<std::size_t>(i)].rfind(opening, 0), 0U)
           << e.messages[static_cast<std::size_t>(i)];
   }
@@ -381,6 +387,52 @@ TEST(CaseRead, AllMistakesAreToldAtOnce) {
   EXPECT_NE(refusal(many).find("... and 10 more"), std::string::npos);
 }
 
+std::vector<std::string> all_mistakes(const std::string& text) {
+  try {
+    case_from_text(text, "panel.toml");
+  } catch (const InputErrors& e) {
+    return e.messages;
+  } catch (const InputError& e) {
+    return {e.what()};
+  }
+  return {};
+}
+
+// Rules between keys hold for the parts of a case in which every key is right: of the others they would speak of
+// defaults that nobody gave.
+TEST(CaseRead, RulesBetweenKeysAreToldInTheSameAnswer) {
+  const auto mistakes = all_mistakes(
+      "[mat]\nlenght_mm = 3\n"                                       // a key
+      "[kinds.core]\ngap_mm = 0.5\n"                                 // less than its standard deviation of 1
+      "[kinds.surface]\nlength_mm = \"long\"\nlength_sd_mm = 160\n"  // a key, and so no rule about its length
+      "[materials.a]\nnu_TR = 0.7\n"                                 // not positive definite
+      "[materials.b]\nnu_TR = 0.7\nE_L_MPa = -1\n"                   // a key, and so no rule
+      "[materials.poplar]\nE_L_MPa = 1e4\n");                        // a built-in name
+  std::vector<std::string> openings{"panel.toml:2: unknown key mat.lenght_mm",
+                                    "panel.toml:13: [materials.poplar]",
+                                    "panel.toml:12: materials.b.E_L_MPa = -1",
+                                    "panel.toml:6: kinds.surface.length_mm = \"long\" mm: must be a number",
+                                    "panel.toml:4: kinds.core.gap_sd_mm = 1 mm: must not exceed",
+                                    "panel.toml:9: [materials.a]: material \"a\": compliance is not positive definite"};
+  ASSERT_EQ(mistakes.size(), openings.size()) << fmt::format("{}", fmt::join(mistakes, "\n"));
+  for (std::size_t i = 0; i < openings.size(); ++i) EXPECT_EQ(mistakes[i].rfind(openings[i], 0), 0U) << mistakes[i];
+}
+
+// A width makes lengths those of whole strands, of which a section shows the width where they lie across: the same mat
+// as of strands whose width is given as their length.
+TEST(CaseRead, StrandsAcrossShowTheirWidth) {
+  const auto whole = case_from_text(
+      "[kinds.core]\nlength_mm = 150\nlength_sd_mm = 20\nwidth_mm = 25\nwidth_sd_mm = 3\n[kinds.surface]\n"
+      "width_mm = 25\n",
+      "panel.toml");
+  EXPECT_EQ(mat::to_text(make_mat(whole)), mat::to_text(make_mat(Case())));
+  EXPECT_EQ(in_section(whole, whole.kinds[1]).length_mm, 25);
+  const auto turned = changed(whole, {"kinds.core.angle_sd_deg=25"}, "test");
+  EXPECT_GT(in_section(turned, turned.kinds[1]).length_mm, 25);
+  EXPECT_TRUE(make_mat(turned).layers[7].strands.front().angle_deg.has_value());
+}
+
+// Sizes that no mat is formed of are refused where they are written, by the range that the reference shows.
 TEST(CaseRead, SizesOfAMatThatCannotBeFormedAreRefusedWhereTheyStand) {
   for (const auto* key : {"length_mm", "layer_thickness_mm"}) {
     const auto message = refusal(std::string("[mat]\n") + key + " = 1e-4");

@@ -16,7 +16,7 @@ struct Sample {
   std::string dotted;                  // "kinds.surface.angle_deg"
   std::string name;                    // "surface"
   std::string value;                   // as TOML
-  std::vector<std::string> base = {};  // overrides that make the case one of a plate, where the key is of such only
+  std::vector<std::string> base = {};  // overrides without which the key has no meaning: those of a plate, a width
 };
 
 // Its own assignment after those that make the case what it has to be.
@@ -78,6 +78,7 @@ inline std::vector<Sample> samples() {
     s.dotted = title + "." + s.key;
     if (key.dimensions == 3)
       s.base = {"mat.length_mm=300", "mat.width_mm=300", "kinds.surface.angle_sd_deg=0", "kinds.core.angle_sd_deg=0"};
+    if (key.path == "kinds.*.width_sd_mm") s.base = {"kinds.surface.width_mm=20"};
     if (key.path == "mat.width_mm") s.base = {"mat.length_mm=300"};
     const auto c = plain_case(s);
     s.value = other_value(key, c, s.name);

@@ -20,6 +20,21 @@ TEST(Formed, IsRemarkedOnWhereShorterThanThreeStrands) {
   EXPECT_FALSE(with_length("450").has_value());
 }
 
+// Strands across that are wider than any strand: most likely their length was meant.
+TEST(Formed, IsWarnedOfWhereLengthIsTakenForWidth) {
+  const auto remarks = [](std::vector<std::string> keys) {
+    return remarks_on_widths(cases::case_from_text("", "panel.toml", keys));
+  };
+  ASSERT_EQ(remarks({"kinds.core.length_mm=120"}).size(), 1);
+  EXPECT_EQ(remarks({"kinds.core.length_mm=120"}).front(),
+            "kinds.core: strands at 90 degrees are cut across their grain, and length_mm = 120 is what the section "
+            "shows, their width; if that is the length of whole strands, give kinds.core.width_mm too");
+  EXPECT_TRUE(remarks({}).empty());
+  EXPECT_TRUE(remarks({"kinds.core.length_mm=120", "kinds.core.width_mm=20"}).empty());
+  EXPECT_TRUE(remarks({"kinds.core.length_mm=120", "kinds.core.angle_deg=30"}).empty());
+  EXPECT_TRUE(remarks({"kinds.core.length_mm=120", "mat.rows=[\"surface*3\"]"}).empty());
+}
+
 // Density times thickness is the mat's weight, whatever the state; the density asked for is met to 1e-4 of compaction.
 TEST(Formed, HasItsStatesByWeight) {
   const auto formed = form(cases::case_from_text("", "panel.toml", {"press.densities_kg_m3=[400, 640]"}));
