@@ -19,6 +19,12 @@ function glueName(run: Run, compliance: string): string {
   return run.words.glues.find(glue => glue.compliance_t_mm_per_MPa === Number(compliance))?.name ?? `1/Dₜ ${compliance}`;
 }
 
+// Its name, with the compliance where that is not the name itself.
+function glueOf(run: Run, compliance: number): string {
+  const name = glueName(run, String(compliance));
+  return compliance <= 0 || name.startsWith('1/D') ? name : `${name} (1/Dₜ ${compliance} mm/MPa)`;
+}
+
 function percent(compaction: number): string {
   return `${Number((100 * compaction).toFixed(1))} %`;
 }
@@ -198,7 +204,7 @@ function slips(run: Run): SlipState[] {
   return run.case.compactions.flatMap(c => {
     const text = run.tables[`glue_lines/slip_${c}.csv`];
     const state = text === undefined ? undefined : slipState(c, text);
-    return state ? [state] : [];
+    return state ? [{...state, glue: glueOf(run, state.compliance_t_mm_per_MPa)}] : [];
   });
 }
 
@@ -357,6 +363,7 @@ export function runReport(run: Run, place: HTMLElement): SectionView | undefined
     histograms.length > 0 ? section('Density and shape', grid(histograms)) : null,
     section('The case', run.mat ? layupFigure(run.mat, run.case, run.record) : null, caseFacts(run)),
     provenance(run),
+    document.getElementById('background'),
     el('footer', {}, `strandlab ${run.record.strandlab ?? ''}. The numbers are in the CSV files of the run folder.`),
   ];
   place.append(...content.filter((node): node is HTMLElement => node !== null));

@@ -564,7 +564,7 @@ export class SectionView {
     const swatches = c ? [] : this.options.kinds.map((kind, i): [string, string] => [kindColour(i), kind]);
     const state = this.showGlue ? this.slip : undefined;
     if (state) {
-      ramps.push({label: `Slip of glue lines of 1/Dₜ ${state.compliance_t_mm_per_MPa} mm/MPa in tension, µm at ${100 * state.strain} % strain`,
+      ramps.push({label: `Slip of glue lines of ${state.glue ?? `1/Dₜ ${state.compliance_t_mm_per_MPa} mm/MPa`} in tension, µm at ${100 * state.strain} % strain`,
                   map: plasma, low: 0, high: state.highest_um, cutsLow: false, cutsHigh: true});
     } else if (this.showGlue) {
       swatches.push([glueColour, 'faces near enough to be glued']);

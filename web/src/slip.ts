@@ -8,6 +8,7 @@ export interface SlipLine extends GlueLine {
 
 export interface SlipState {
   compaction: number;
+  glue?: string;  // what this glue is called
   compliance_t_mm_per_MPa: number;
   strain: number;      // mean strain of the tension test
   highest_um: number;  // that 99 % of the points stay below

@@ -2,6 +2,7 @@
 import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
+import axe from 'axe-core';
 import {chromium} from 'playwright-core';
 
 const [folder, hostile, hot] = process.argv.slice(2).map(path => resolve(path));
@@ -238,7 +239,7 @@ async function colourings() {
   await page.getByLabel('Glue lines').check();
   check(await picture(page) !== before, 'glue lines are drawn');
   const bar = await page.locator('.colour-bar').textContent();
-  check(bar.includes('Slip of glue lines of 1/Dₜ 0.0105'), `the last state was tested: its glue lines tell their slip: ${bar}`);
+  check(bar.includes('Slip of glue lines of PF 25 % (1/Dₜ 0.0105 mm/MPa)'), `the last state was tested: its glue lines tell their slip: ${bar}`);
   await page.getByRole('slider', {name: 'Compaction'}).fill('10');
   await settled(page);
   const between = await page.locator('.colour-bar').textContent();
@@ -339,6 +340,39 @@ async function links() {
     .filter(href => !document.querySelector(href)));
   check(broken.length === 0, `links that lead nowhere: ${broken}`);
   check(await page.locator('#findings a').count() > 4, 'findings lead to their charts');
+  const section = page.locator('#findings cite a').first();
+  const target = page.locator(await section.getAttribute('href'));
+  check(!await target.isVisible(), 'sections of the documentation wait folded');
+  await section.click();
+  await target.waitFor();
+  check((await target.textContent()).length > 100, 'a finding leads to what the documentation says');
+  await page.locator('.background > summary').click();
+}
+
+// Rules of WCAG 2 and good practice, by axe; canvas and chart contents have checks of their own above.
+async function accessible() {
+  for (const [scheme, width] of [['light', 1280], ['dark', 390]]) {
+    const other = await open(report, {scheme, width});
+    await other.locator('.background > summary').click();
+    await other.evaluate(axe.source);
+    const {violations, passes} = await other.evaluate(() => window.axe.run());
+    check(passes.length > 20, `axe, ${scheme}: only ${passes.length} rules had anything to look at`);
+    for (const v of violations) check(false, `axe, ${scheme}, ${width} px: ${v.id}: ${v.help}: ${v.nodes.slice(0, 3).map(n => n.html.slice(0, 120)).join(' | ')}`);
+    await other.close();
+  }
+}
+
+// The page's head is on screen before its scripts work: the browser's own first contentful paint, .2 s as measured, below
+// the .3 s that a reader does not notice. The limit is three times that, as other tests run beside this one.
+async function firstPaint() {
+  let best = Infinity;
+  for (let i = 0; i < 3; ++i) {
+    const other = await open(report);
+    best = Math.min(best, await other.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? Infinity));
+    await other.close();
+  }
+  console.log(`first contentful paint: ${best.toFixed(0)} ms`);
+  check(best < 900, `the first paint comes after ${best.toFixed(0)} ms`);
 }
 
 // Every line stands out from its card by 3:1 (WCAG 1.4.11).
@@ -391,7 +425,7 @@ async function paper() {
   await page.emulateMedia({media: 'print'});
   check(!await page.locator('.toolbar').isVisible() && await page.locator('canvas.section').isVisible(), 'paper shows pictures, not buttons');
   await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
-  check(await page.locator('main pre').isVisible(), 'paper shows the case');
+  check(await page.locator('main pre').first().isVisible(), 'paper shows the case');
   await page.evaluate(() => window.dispatchEvent(new Event('afterprint')));
   const pdf = await page.pdf({format: 'A4'});
   check(pdf.subarray(0, 4).toString() === '%PDF' && pdf.length > 30000, 'the page prints');
@@ -434,7 +468,7 @@ async function hotPress() {
   await other.close();
 }
 
-const steps = [chartsShowTheTables, frameProfileAgrees, downloads, sliderMovesThePicture, colourings, pointerAndKeys, pointingAtCharts, links, withoutScripts, tabbing, themes, paper, hostileNames, hotPress];
+const steps = [firstPaint, chartsShowTheTables, frameProfileAgrees, downloads, sliderMovesThePicture, colourings, pointerAndKeys, pointingAtCharts, links, accessible, withoutScripts, tabbing, themes, paper, hostileNames, hotPress];
 try {
   for (const step of steps) await step().catch(error => check(false, `${step.name}: ${error.stack}`));
 } finally {

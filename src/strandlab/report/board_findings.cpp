@@ -153,7 +153,7 @@ std::vector<Finding> stiffness_findings(const std::vector<PanelModulus>& moduli,
           capital(fmt::format("undulation, gaps and strand ends: with perfect bonds the {} modulus is {:.0f} % of that "
                               "of the same rows laid flat.",
                               name, 100 * *perfect / *s.flat)),
-          chart, "docs/theory.md"));
+          chart, "docs/theory.md, \"Closed-form models\""));
     }
   }
   return list;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <regex>
 #include <set>
 
 #include "strandlab/core/markup.hpp"
@@ -59,6 +61,23 @@ std::string html_of_headlines(const Sheet& sheet, Told& told) {
   return html + "</dl>\n";
 }
 
+// The documentation's section behind a finding; the page has it under this anchor (web/build.mjs).
+std::string html_of_docs(const std::string& docs) {
+  const auto text = escaped_markup(docs);
+  static const std::regex kSection(R"re(docs/([a-z0-9-]+)\.md, "([^"<>&]+)")re");
+  std::smatch part;
+  if (!std::regex_match(docs, part, kSection)) return fmt::format(" <cite>{}</cite>", text);
+  std::string anchor = "docs-";
+  for (const char c : part[1].str() + "-" + part[2].str()) {
+    const auto letter = static_cast<unsigned char>(c);
+    if (std::isalnum(letter) != 0)
+      anchor += static_cast<char>(std::tolower(letter));
+    else if (anchor.back() != '-')
+      anchor += '-';
+  }
+  return fmt::format(" <cite><a href=\"#{}\">{}</a></cite>", anchor, text);
+}
+
 std::string html_of_item(const Finding& f, bool first_warning, Told& told) {
   struct Look {
     const char *name, *mark, *read;
@@ -69,7 +88,7 @@ std::string html_of_item(const Finding& f, bool first_warning, Told& told) {
   std::string more;
   if (!f.chart.empty())
     more += fmt::format(" <a href=\"#chart-{0}\" aria-label=\"Chart: {0}\">chart</a>", escaped_markup(f.chart));
-  if (!f.docs.empty()) more += fmt::format(" <cite>{}</cite>", escaped_markup(f.docs));
+  if (!f.docs.empty()) more += html_of_docs(f.docs);
   return fmt::format(
       "<li class=\"{}\"{}><span class=\"mark\" aria-hidden=\"true\">{}</span><span><span class=\"sr\">{}</span>{}{}"
       "</span></li>\n",

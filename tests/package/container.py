@@ -1,0 +1,51 @@
+"""Builds the Containerfile and presses a small panel with it, as docs/install.md has it: container.py SOURCE
+
+A quarter of an hour. The Debian that it starts from is bootstrapped, so that no registry is asked. Needs root's rights, podman and
+mmdebstrap, else it is skipped; package_clean_root_Nightly installs the same packages into a bootstrapped root without podman."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from packages import SETTINGS, run, skip
+
+SOURCE = pathlib.Path(sys.argv[1])
+MIRROR = os.environ.get("STRANDLAB_DEBIAN_MIRROR", "http://deb.debian.org/debian")
+if os.geteuid() != 0 or not shutil.which("podman") or not shutil.which("mmdebstrap"):
+    skip("needs root's rights, podman and mmdebstrap (Debian: podman, mmdebstrap)")
+# As in a container without systemd of its own: no groups of processes, storage as plain folders.
+PODMAN = ["podman", "--cgroup-manager=cgroupfs", "--storage-driver=vfs"]
+if (told := subprocess.run([*PODMAN, "info"], capture_output=True, text=True, check=False)).returncode != 0:
+    skip(f"podman does not work here: {told.stderr.strip()[-200:]}")
+
+with tempfile.TemporaryDirectory(prefix="strandlab_container_") as name:
+    folder = pathlib.Path(name)
+    podman = [*PODMAN, f"--root={folder}/storage", f"--runroot={folder}/run"]
+    try:
+        run("mmdebstrap", "--variant=apt", "--mode=root", "bookworm", folder / "debian.tar", f"deb {MIRROR} bookworm main", timeout=900)
+        run(*podman, "import", folder / "debian.tar", "localhost/debian:12", timeout=300)
+        run("git", "clone", "-q", SOURCE, folder / "tree")
+        # One that cannot start even a trivial program is no fault of ours.
+        trivial = subprocess.run([*podman, "run", "--rm", "--network=host", "--cgroups=disabled", "localhost/debian:12", "true"],
+                                 capture_output=True, text=True, check=False)
+        if trivial.returncode != 0:
+            skip(f"podman starts nothing here: {trivial.stderr.strip()[-200:]}")
+        run(*podman, "build", "--network=host", "--isolation=chroot", "--build-arg=BASE=localhost/debian:12", "-t", "strandlab", folder / "tree",
+            timeout=3600)
+        work = folder / "work"
+        work.mkdir()
+        inside = [*podman, "run", "--rm", "--network=none", "--cgroups=disabled", "-v", f"{work}:/work", "strandlab"]
+        (work / "osb.toml").write_text(run(*inside, "init", "osb"), encoding="utf-8")
+        run(*inside, "run", "osb.toml", *SETTINGS)
+        for file in ("moduli.csv", "report.html", "plots/stress.png"):
+            if not (work / "runs/osb" / file).is_file():
+                sys.exit(f"FAILED: the program in the container left no {file}")
+        told = run(*inside, "doctor")
+        if "ok      self-test" not in told:
+            sys.exit(f"FAILED: strandlab doctor:\n{told}")
+    finally:
+        subprocess.run([*podman, "system", "reset", "--force"], capture_output=True, check=False)
+print("the Containerfile makes an image that presses and tests a panel")
