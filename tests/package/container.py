@@ -16,28 +16,32 @@ SOURCE = pathlib.Path(sys.argv[1])
 MIRROR = os.environ.get("STRANDLAB_DEBIAN_MIRROR", "http://deb.debian.org/debian")
 if os.geteuid() != 0 or not shutil.which("podman") or not shutil.which("mmdebstrap"):
     skip("needs root's rights, podman and mmdebstrap (Debian: podman, mmdebstrap)")
-# As in a container without systemd of its own: no groups of processes, storage as plain folders.
-PODMAN = ["podman", "--cgroup-manager=cgroupfs", "--storage-driver=vfs"]
-if (told := subprocess.run([*PODMAN, "info"], capture_output=True, text=True, check=False)).returncode != 0:
-    skip(f"podman does not work here: {told.stderr.strip()[-200:]}")
+LIMITS = ["--ulimit=nofile=1024:1024", "--ulimit=nproc=1024:1024"]
 
 with tempfile.TemporaryDirectory(prefix="strandlab_container_") as name:
     folder = pathlib.Path(name)
-    podman = [*PODMAN, f"--root={folder}/storage", f"--runroot={folder}/run"]
+    # As in a container without systemd of its own: no groups of processes, storage as plain folders.
+    podman = ["podman", "--cgroup-manager=cgroupfs", "--storage-driver=vfs", f"--root={folder}/storage", f"--runroot={folder}/run",
+              f"--tmpdir={folder}/tmp"]
     try:
+        if (told := subprocess.run([*podman, "info"], capture_output=True, text=True, check=False)).returncode != 0:
+            skip(f"podman does not work here: {told.stderr.strip()[-200:]}")
         run("mmdebstrap", "--variant=apt", "--mode=root", "bookworm", folder / "debian.tar", f"deb {MIRROR} bookworm main", timeout=900)
         run(*podman, "import", folder / "debian.tar", "localhost/debian:12", timeout=300)
         run("git", "clone", "-q", SOURCE, folder / "tree")
-        # One that cannot start even a trivial program is no fault of ours.
-        trivial = subprocess.run([*podman, "run", "--rm", "--network=host", "--cgroups=disabled", "localhost/debian:12", "true"],
-                                 capture_output=True, text=True, check=False)
-        if trivial.returncode != 0:
+        # One that cannot start even a trivial program is no fault of ours; inside another container some of its ways are closed.
+        for runtime, options in (([], []), ([], LIMITS), (["--runtime=runc"], ["--cgroups=no-conmon", *LIMITS])):
+            podman_run = [*podman, *runtime, "run", "--rm", *options]
+            trivial = subprocess.run([*podman_run, "--network=none", "localhost/debian:12", "true"], capture_output=True, text=True, check=False)
+            if trivial.returncode == 0:
+                break
+        else:
             skip(f"podman starts nothing here: {trivial.stderr.strip()[-200:]}")
         run(*podman, "build", "--network=host", "--isolation=chroot", "--build-arg=BASE=localhost/debian:12", "-t", "strandlab", folder / "tree",
             timeout=3600)
         work = folder / "work"
         work.mkdir()
-        inside = [*podman, "run", "--rm", "--network=none", "--cgroups=disabled", "-v", f"{work}:/work", "strandlab"]
+        inside = [*podman_run, "--network=none", "-v", f"{work}:/work", "strandlab"]
         (work / "osb.toml").write_text(run(*inside, "init", "osb"), encoding="utf-8")
         run(*inside, "run", "osb.toml", *SETTINGS)
         for file in ("moduli.csv", "report.html", "plots/stress.png"):
