@@ -9,7 +9,7 @@ if(STRANDLAB_WEB AND STRANDLAB_NODE AND STRANDLAB_NPM)
   set(web ${PROJECT_SOURCE_DIR}/web)
   # Sources name the sections of the documentation that the page carries.
   file(GLOB web_sources CONFIGURE_DEPENDS ${web}/src/* ${PROJECT_SOURCE_DIR}/docs/*.md
-       ${PROJECT_SOURCE_DIR}/src/strandlab/report/*.cpp ${PROJECT_SOURCE_DIR}/src/strandlab/run/*.cpp)
+       ${PROJECT_SOURCE_DIR}/src/strandlab/report/*.cpp ${PROJECT_SOURCE_DIR}/src/strandlab/run/*.cpp ${PROJECT_SOURCE_DIR}/src/strandlab/study/*.cpp)
   add_custom_command(OUTPUT ${STRANDLAB_PAGE}
     COMMAND ${web}/bundle ${STRANDLAB_PAGE}
     DEPENDS ${web_sources} ${web}/bundle ${web}/build.mjs ${web}/package.json ${web}/package-lock.json

@@ -23,7 +23,7 @@ const slug = text => text.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|
 
 function namedSections() {
   const named = new Set();
-  for (const room of ['report', 'run']) {
+  for (const room of ['report', 'run', 'study']) {
     for (const file of readdirSync(here(`../src/strandlab/${room}`)).filter(name => name.endsWith('.cpp')).sort()) {
       const source = readFileSync(here(`../src/strandlab/${room}/${file}`), 'utf8');
       for (const [, page, section] of source.matchAll(/"docs\/([\w-]+)\.md, \\"([^"\\]+)\\""/g)) named.add(`${page}\n${section}`);

@@ -28,6 +28,15 @@ cells_through_strand = 2
 cells = 10
 schedule = ["close to 50 % in 4 s", "hold until 30 s", "vent 2 s", "open 2 s"]
 """
+# Of the case a.toml, shorter.
+PLAN = """base = "a.toml"
+replicates = 3
+[set]
+"press.compactions" = [0, 0.02]
+[axes]
+"press.speed_m_s" = [16, 32]
+"kinds.core.law" = ["crushing", "hill"]
+"""
 MARK = '<script type="application/json" id="data">'
 
 
@@ -81,7 +90,10 @@ if __name__ == "__main__":
         pathlib.Path("hot.toml").write_text(HOT_CASE, encoding="utf-8")
         result = strandlab("run", "hot.toml", "-o", "hot")
         check(result.returncode == DONE, f"hot run: {result.stderr}")
-        node = subprocess.run([shutil.which("node"), SOURCE / "web" / "test" / "report.mjs", "out", "hostile.html", "hot"],
+        pathlib.Path("plan.toml").write_text(PLAN, encoding="utf-8")
+        result = strandlab("study", "run", "plan.toml", "-o", "studied")
+        check(result.returncode == DONE, f"study: {result.stderr}")
+        node = subprocess.run([shutil.which("node"), SOURCE / "web" / "test" / "report.mjs", "out", "hostile.html", "hot", "studied"],
                               capture_output=True, text=True, timeout=240, check=False)
         print(node.stdout, node.stderr)
         check(node.returncode == 0, "the report in the browser")

@@ -43,7 +43,9 @@ TABLES = ("results.csv", "summary.csv", "effects.csv", "profiles.csv", "press.cs
 
 
 def tables(folder):
-    return {name: pathlib.Path(folder, name).read_bytes() for name in TABLES}
+    """And the page, which has the folder's name as its title."""
+    page = pathlib.Path(folder, "report.html").read_text(encoding="utf-8").replace(f"<h1>{folder}</h1>", "").replace(f"<title>{folder} ", "<title>")
+    return {name: pathlib.Path(folder, name).read_bytes() for name in TABLES} | {"report.html": page}
 
 
 def rows(file):

@@ -17,6 +17,9 @@ export interface Series {
   x: number[];
   y: number[];
   style?: 'line' | 'marked' | 'dashed' | 'steps' | 'area';
+  // A band about the line, drawn paler: from low to high at each x.
+  low?: number[];
+  high?: number[];
   // Place in an ordered family (light to dark), else a colour of its own; 'ink' for references.
   family?: [index: number, count: number];
   ink?: boolean;
@@ -52,6 +55,8 @@ export function formatNumber(value: number): string {
   return Number(value.toPrecision(4)).toLocaleString('en', {maximumFractionDigits: 6}).replace(/,/g, narrowSpace);
 }
 const narrowSpace = '\u202f';  // does not break
+
+const bandMark = '\u200b';  // ends the names of what is not told
 
 interface Pointed {
   seriesName?: string;
@@ -111,9 +116,23 @@ export class Chart {
     this.chart.setOption(this.option(), true);
   }
 
-  private series(s: Series, index: number): object {
-    const paint = s.ink ? colour('ink-soft') : readable(s.colour ??
+  private paint(s: Series, index: number): string {
+    return s.ink ? colour('ink-soft') : readable(s.colour ??
       (s.family ? family(s.family[1], isDark())[s.family[0]]! : okabeIto[index % okabeIto.length]!), colour('card'), 3);
+  }
+
+  // Two lines that cannot be seen, the area between them filled.
+  private band(s: Series, index: number): object[] {
+    const {low, high} = s;
+    if (!low || !high || !low.some(Number.isFinite)) return [];
+    const common = {type: 'line', name: `${s.name}${bandMark}`, stack: `band ${index}`, stackStrategy: 'all', symbol: 'none', silent: true,
+                    lineStyle: {opacity: 0}, itemStyle: {color: this.paint(s, index)}, z: 1, step: s.style === 'steps' ? 'end' : false};
+    return [{...common, data: s.x.map((x, i) => [x, low[i]])},
+            {...common, data: s.x.map((x, i) => [x, high[i]! - low[i]!]), areaStyle: {opacity: 0.22}}];
+  }
+
+  private series(s: Series, index: number): object {
+    const paint = this.paint(s, index);
     // References without a name continue the one before.
     const references = this.spec.series.slice(0, index + 1).filter(other => other.style === 'dashed' && other.name !== '').length - 1;
     const style = s.style ?? 'line';
@@ -156,7 +175,7 @@ export class Chart {
       return el('div', {}, swatch, point.seriesName ?? '', ' ', el('b', {}, value));
     };
     return el('div', {class: 'pointed'}, spec.item ? `${spec.xLabel}; ${spec.yLabel || 'mm'}` : `${spec.xLabel}: ${formatNumber(list[0]?.value[0] ?? NaN)}`,
-      ...list.filter(point => Number.isFinite(point.value[1])).map(row));
+      ...list.filter(point => Number.isFinite(point.value[1]) && !point.seriesName?.endsWith(bandMark)).map(row));
   }
 
   // Beside the pointer, within the window.
@@ -209,7 +228,7 @@ export class Chart {
         ...axis, ...name(spec.yLabel), nameGap: 48, min: spec.y?.min ?? (fromZero ? 0 : undefined), max: spec.y?.max,
         ...(spec.y?.hidden ? {axisLabel: {show: false}, axisTick: {show: false}, splitLine: {show: false}} : {}),
       },
-      series: spec.series.map((s, i) => this.series(s, i)),
+      series: [...spec.series.map((s, i) => this.series(s, i)), ...spec.series.flatMap((s, i) => this.band(s, i))],
     };
   }
 }

@@ -134,9 +134,30 @@ export interface Run {
   frames: PackedFrames;
 }
 
+// What the program writes of a study (src/strandlab/study/page.cpp).
+export interface StudyItem {
+  number: number;
+  hash: string;
+  replicate: number;
+  seed: string;
+  cell: number;
+  state: 'whole' | 'failed' | 'missing';
+}
+
+export interface Study {
+  keys: string[];   // that vary
+  cells: {name: string; values: string}[];  // in full, and as legends have it
+  items: StudyItem[];
+  plan: string;
+  words: {tests: Record<string, string>; glues: {compliance_t_mm_per_MPa: number; name: string}[]};
+  tables: Record<string, string>;
+}
+
+// Of a run, or of a study.
 export interface ReportData {
   format: number;
-  run: Run;
+  run?: Run;
+  study?: Study;
 }
 
 // The data embedded in the page. Throws where the page was not filled.

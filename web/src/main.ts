@@ -2,6 +2,7 @@ import {charts} from './chart';
 import {embedded} from './data';
 import {el} from './dom';
 import {runReport} from './run_report';
+import {studyReport} from './study_report';
 import {startTheme} from './theme';
 
 function start(): void {
@@ -9,7 +10,8 @@ function start(): void {
   startTheme();
   const data = embedded();
   if (data.format !== 2) throw new Error(`format ${data.format} is another than this page's`);
-  const view = runReport(data.run, place);
+  if (data.study) studyReport(data.study, place);
+  const view = data.run ? runReport(data.run, place) : undefined;
   Object.assign(window, {strandlab: {charts, view}});
 }
 

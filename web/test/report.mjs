@@ -1,11 +1,11 @@
-// Opens reports in headless Chromium as a reader would: node report.mjs RUN_FOLDER HOSTILE_REPORT HOT_RUN_FOLDER. Prints what does not hold.
+// Opens reports in headless Chromium as a reader would: node report.mjs RUN_FOLDER HOSTILE_REPORT HOT_RUN_FOLDER STUDY_FOLDER. Prints what does not hold.
 import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
 import axe from 'axe-core';
 import {chromium} from 'playwright-core';
 
-const [folder, hostile, hot] = process.argv.slice(2).map(path => resolve(path));
+const [folder, hostile, hot, studied] = process.argv.slice(2).map(path => resolve(path));
 const browserPath = process.env.STRANDLAB_CHROMIUM ?? '/usr/bin/chromium';
 const profile = mkdtempSync(join(tmpdir(), 'strandlab_chromium_'));
 
@@ -17,8 +17,8 @@ function check(holds, message) {
 }
 
 // A table of numbers and plain words.
-function csv(name) {
-  const [head, ...rows] = readFileSync(join(folder, name), 'utf8').trim().split('\n').map(line => line.split(','));
+function csv(name, from = folder) {
+  const [head, ...rows] = readFileSync(join(from, name), 'utf8').trim().split('\n').map(line => line.split(','));
   return rows.map(row => Object.fromEntries(head.map((column, i) => [column, row[i]])));
 }
 
@@ -48,7 +48,7 @@ async function open(file, options = {}) {
   page.on('request', request => check(request.url() === `file://${file}` || /^(data|blob):/.test(request.url()),
     `${file}: a request for ${request.url().slice(0, 100)}`));
   await page.goto(`file://${file}`);
-  await page.waitForFunction(() => document.querySelector('canvas.section')?.dataset.frame !== undefined);
+  await page.waitForFunction(drawn => document.querySelector(drawn), options.drawn ?? 'canvas.section[data-frame]');
   await settled(page);
   return page;
 }
@@ -468,7 +468,48 @@ async function hotPress() {
   await other.close();
 }
 
-const steps = [firstPaint, chartsShowTheTables, frameProfileAgrees, downloads, sliderMovesThePicture, colourings, pointerAndKeys, pointingAtCharts, links, accessible, withoutScripts, tabbing, themes, paper, hostileNames, hotPress];
+// A study of two axes: what is drawn is what its tables say, at the last state and the glue in the middle.
+async function study() {
+  const other = await open(join(studied, 'report.html'), {drawn: '#chart-tornado rect'});
+  const summary = csv('summary.csv', studied).filter(row => row.contrast === ''), effects = csv('effects.csv', studied);
+  const last = String(Math.max(...summary.map(row => Number(row.state)))), test = summary[0].test;
+  const shown = summary.filter(row => row.test === test && row.state === last);
+  const keys = ['press.speed_m_s', 'kinds.core.law'];
+  const cells = [...new Set(shown.map(row => keys.map(key => row[key]).join(' · ')))];
+  const means = await chart(other, 'means-glue');
+  cells.forEach((cell, i) => {
+    const rows = shown.filter(row => keys.map(key => row[key]).join(' · ') === cell);
+    check(means.series[i].name === cell, `the line of a cell has its name: ${means.series[i].name}, ${cell}`);
+    same(`means of ${cell}`, means.series[i].data, rows.map(row => [Number(row.compliance_t_mm_per_MPa), Number(row.mean_MPa)]));
+    const [low, wide] = means.series.slice(cells.length + 2 * i, cells.length + 2 * i + 2).map(s => s.data);
+    same(`band of ${cell}, low`, low, rows.map(row => [Number(row.compliance_t_mm_per_MPa), Number(row.low_MPa)]));
+    same(`band of ${cell}, high`, wide.map(([x, y], k) => [x, y + low[k][1]]), rows.map(row => [Number(row.compliance_t_mm_per_MPa), Number(row.high_MPa)]));
+  });
+  const glues = new Set(shown.map(row => row.compliance_t_mm_per_MPa)).size;
+  const wanted = effects.filter(row => row.test === test && row.state === last).filter((_, i) => i % glues === Math.floor((glues - 1) / 2))
+    .map(row => 100 * row.effect_MPa / row.reference_MPa).sort((a, b) => Math.abs(b) - Math.abs(a));
+  const told = await other.locator('#chart-tornado text.value').evaluateAll(texts => texts.map(t => Number(t.textContent.replace('−', '-').replace(' %', ''))));
+  check(wanted.length === 2 && wanted.every((value, i) => Math.abs(value - told[i]) <= 5.1e-3 * Math.abs(value)), `effects ${told}, of effects.csv ${wanted}`);
+  await other.getByLabel('Tension', {exact: true}).check({force: true});
+  const tension = await chart(other, 'means-glue');
+  const first = summary.filter(row => row.test === 'tension' && row.state === last)[0];
+  check(near(tension.series[0].data[0][1], Number(first.mean_MPa)), 'the switch shows the other test');
+  for (const id of ['means-density', 'stress', 'profile', 'multiple-0', 'multiple-3']) check((await chart(other, id))?.paths > 3, `${id} is drawn`);
+  check((await other.locator('tbody a').first().getAttribute('href')).startsWith('items/'), 'a panel leads to its case');
+  check((await other.locator('#findings li').count()) > 3 && (await other.locator('#table-means-tension tbody tr').count()) === cells.length, 'findings and means as HTML');
+  const broken = await other.evaluate(() => [...document.querySelectorAll('a[href^="#"]')].map(a => a.getAttribute('href')).filter(href => !document.querySelector(href)));
+  check(broken.length === 0, `links of a study that lead nowhere: ${broken}`);
+  await other.evaluate(axe.source);
+  for (const v of (await other.evaluate(() => window.axe.run())).violations) check(false, `axe, study: ${v.id}: ${v.nodes.slice(0, 2).map(n => n.html.slice(0, 120))}`);
+  await linesAreSeen(other, 'study');
+  await other.close();
+  const narrow = await open(join(studied, 'report.html'), {drawn: '#chart-tornado rect', width: 390, scheme: 'dark'});
+  check(await narrow.evaluate(() => document.scrollingElement.scrollWidth <= window.innerWidth), 'a study on a phone is not wider than it');
+  check((await leastContrast(narrow)).ratio >= 4.5, `a study in the dark: ${JSON.stringify(await leastContrast(narrow))}`);
+  await narrow.close();
+}
+
+const steps = [firstPaint, chartsShowTheTables, frameProfileAgrees, downloads, sliderMovesThePicture, colourings, pointerAndKeys, pointingAtCharts, links, accessible, withoutScripts, tabbing, themes, paper, hostileNames, hotPress, study];
 try {
   for (const step of steps) await step().catch(error => check(false, `${step.name}: ${error.stack}`));
 } finally {

@@ -136,10 +136,10 @@ void write_summary(const Study& study, const Observations& observations) {
   table.write(study.file("summary.csv"));
 }
 
-void write_effects(const Study& study, const Observations& observations) {
+void write_effects(const Study& study, const std::vector<Effect>& effects) {
   files::CsvTable table(joined(joined({"factor", "value", "against"}, kMeasureColumns),
                                {"n", "effect_MPa", "sd_MPa", "low_MPa", "high_MPa", "reference_MPa", "state"}));
-  for (const auto& effect : main_effects(study.plan, observations)) {
+  for (const auto& effect : effects) {
     Row row{effect.factor, effect.value, effect.against};
     add_measure(row, effect.finding);
     add_statistics(row, effect.finding);
@@ -174,7 +174,10 @@ Collected collect(const Study& study) {
   write_joined(study, items, "profile.csv", "profiles.csv");
   write_joined(study, items, "press.csv", "press.csv");
   write_summary(study, observations);
-  write_effects(study, observations);
+  collected.effects = main_effects(study.plan, observations);
+  write_effects(study, collected.effects);
+  for (const auto& item : items) collected.items.push_back(item.item);
+  for (std::size_t i = 0; i < cells; ++i) collected.cells.push_back(observations.of_cell(i));
   return collected;
 }
 

@@ -12,6 +12,7 @@
 #include "strandlab/study/folder.hpp"
 #include "strandlab/study/item.hpp"
 #include "strandlab/study/items.hpp"
+#include "strandlab/study/page.hpp"
 
 namespace strandlab::study {
 namespace {
@@ -63,6 +64,11 @@ void tell(const Study& study, const Collected& collected, run::Observer& observe
       fmt::format("study: {} of {} items are whole -> {}: results.csv, summary.csv, effects.csv, profiles.csv, "
                   "press.csv",
                   collected.whole, collected.all, study.folder.string()));
+  try {
+    observer.say(fmt::format("study: report: {}", write_page(study, collected).string()));
+  } catch (const InputError& e) {
+    observer.warn(fmt::format("no report.html: {}", e.what()));
+  }
 }
 
 }  // namespace
