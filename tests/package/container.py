@@ -37,8 +37,11 @@ with tempfile.TemporaryDirectory(prefix="strandlab_container_") as name:
                 break
         else:
             skip(f"podman starts nothing here: {trivial.stderr.strip()[-200:]}")
-        run(*podman, "build", "--network=host", "--isolation=chroot", "--build-arg=BASE=localhost/debian:12", "-t", "strandlab", folder / "tree",
-            timeout=3600)
+        # npm trusts whom this machine trusts, as behind a firewall that reads along.
+        trusted = pathlib.Path("/etc/ssl/certs/ca-certificates.crt")
+        trust = [f"--volume={trusted}:/trusted.crt:ro", "--env=NODE_EXTRA_CA_CERTS=/trusted.crt"] if trusted.exists() else []
+        run(*podman, "build", "--network=host", "--isolation=chroot", *trust, "--build-arg=BASE=localhost/debian:12", "-t", "strandlab",
+            folder / "tree", timeout=3600)
         work = folder / "work"
         work.mkdir()
         inside = [*podman_run, "--network=none", "-v", f"{work}:/work", "strandlab"]

@@ -149,10 +149,10 @@ std::string slurm_script(const Study& study, const SlurmArray& array, const fs::
       "#SBATCH --open-mode=append\n"
       "#SBATCH --output={}\n"
       "# The items of this task; the shell waits, so that it hears the signal.\n"
+      "trap '[ -z \"$work\" ] || {{ kill -USR1 $work; wait $work; }}; "
+      "scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_${{SLURM_ARRAY_TASK_ID}}\"; exit' USR1\n"
       "{} study item {} $(sed -n \"${{SLURM_ARRAY_TASK_ID}}p\" {}) --keep {} &\n"
       "work=$!\n"
-      "trap 'kill -USR1 $work; wait $work; "
-      "scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_${{SLURM_ARRAY_TASK_ID}}\"; exit' USR1\n"
       "wait $work\n",
       array.chunks.size(), array.minutes, array.megabytes, (study.folder / "slurm" / "%A_%a.log").string(),
       quoted(program), quoted(study.folder.string()), quoted(chunks.string()),
