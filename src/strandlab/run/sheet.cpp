@@ -73,9 +73,13 @@ std::string grain(const cases::KindSettings& kind) {
   return std::abs(kind.angle_deg) == 90 ? "across the panel" : fmt::format("at {:g}°", kind.angle_deg);
 }
 
-std::string size_in_words(const mat::StrandStatistics& s) {
+std::string size_in_words(const cases::Case& c, const cases::KindSettings& kind) {
+  const auto& s = kind.statistics;
+  const auto angles = cases::angles(c, kind);
+  const bool across =
+      std::abs(std::remainder(kind.angle_deg, 180.0)) == 90 && angles.spread_deg == 0 && angles.sd_deg == 0;
   if (!(s.length_mm > 0)) return {};
-  if (!(s.width_mm > 0)) return fmt::format(", {:g} mm long in the section", s.length_mm);
+  if (!(s.width_mm > 0)) return fmt::format(", {:g} mm {} in the section", s.length_mm, across ? "wide" : "long");
   return fmt::format(", {:g} mm long and {:g} mm wide", s.length_mm, s.width_mm);
 }
 
@@ -87,7 +91,7 @@ std::string strands_in_words(const cases::Case& c, const std::vector<std::string
     const double thickness = kind.thickness_mm > 0 ? kind.thickness_mm : c.layer_thickness_mm;
     const auto thick = c.mat_file.empty() ? fmt::format(", {:g} mm thick", thickness) : "";
     parts.push_back(fmt::format("{}: {}, grain {}{}{}", kind.name, kind.material, grain(kind), thick,
-                                c.mat_file.empty() ? size_in_words(kind.statistics) : ""));
+                                c.mat_file.empty() ? size_in_words(c, kind) : ""));
   }
   return fmt::format("{}", fmt::join(parts, "; "));
 }

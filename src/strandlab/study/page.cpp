@@ -251,7 +251,7 @@ Json data_of(const Study& study, const Collected& collected) {
       if (std::isfinite(f.compliance_t_mm_per_MPa)) compliances.insert(f.compliance_t_mm_per_MPa);
   for (const double compliance : compliances)
     glues.push_back({{"compliance_t_mm_per_MPa", compliance}, {"name", glue::name_of_bond(compliance)}});
-  for (const auto* name : {"summary.csv", "effects.csv", "results.csv"}) {
+  for (const auto* name : {"summary.csv", "effects.csv"}) {
     if (auto text = files::read_text(study.file(name))) tables[name] = *text;
   }
   tables["stress_bands"] = stress_bands(study, collected.items).text();
