@@ -47,7 +47,7 @@ with tempfile.TemporaryDirectory(prefix="strandlab_container_") as name:
         inside = [*podman_run, "--network=none", "-v", f"{work}:/work", "strandlab"]
         (work / "osb.toml").write_text(run(*inside, "init", "osb"), encoding="utf-8")
         run(*inside, "run", "osb.toml", *SETTINGS)
-        for file in ("moduli.csv", "report.html", "plots/stress.png"):
+        for file in ("moduli.csv", "report.html", "pictures/stress.png"):
             if not (work / "runs/osb" / file).is_file():
                 sys.exit(f"FAILED: the program in the container left no {file}")
         told = run(*inside, "doctor")
