@@ -99,6 +99,7 @@ Band band_of(const std::vector<Curve>& curves, const std::vector<double>& x) {
   Band band{x, {}, {}, {}, static_cast<int>(curves.size())};
   for (const double place : x) {
     std::vector<double> values;
+    values.reserve(curves.size());
     for (const auto& curve : curves) values.push_back(at(curve, place));
     const auto s = statistics::summarise(values);
     band.mean.push_back(s.mean);

@@ -72,6 +72,7 @@ std::vector<report::Sheet::Fact> board_of(const Study& study, const Collected& c
     std::vector<std::string> values;
     for (const auto& row : block.rows) {
       std::vector<std::string> shown_values;
+      shown_values.reserve(row.size());
       for (const auto& value : row) shown_values.push_back(value.empty() ? "base" : shown(value));
       values.push_back(fmt::format("{}", fmt::join(shown_values, " / ")));
     }
@@ -123,6 +124,7 @@ std::vector<report::Finding> effects_in_words(const Collected& collected) {
   std::stable_sort(told.begin(), told.end(), [](const Told& a, const Told& b) { return a.size > b.size; });
   if (told.size() > kFindings) told.resize(kFindings);
   std::vector<report::Finding> findings;
+  findings.reserve(told.size());
   for (auto& one : told) findings.push_back(std::move(one.finding));
   return findings;
 }
